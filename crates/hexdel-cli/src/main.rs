@@ -1,0 +1,3 @@
+//! The `hexdel` program.
+
+fn main() {}

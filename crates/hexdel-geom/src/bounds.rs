@@ -1,0 +1,65 @@
+//! The interval that every angle of a mesh is promised to lie in.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// An interval of angles, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AngleBounds {
+    min_deg: f64,
+    max_deg: f64,
+}
+
+/// Why two numbers are no angle bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BoundsError {
+    /// One of the angles is not a number between 0 and 180, or the pair leaves
+    /// no triangle: a triangle's smallest angle is at most 60, its largest at
+    /// least 60.
+    #[error("no triangle has all angles between {min_deg} and {max_deg} degrees")]
+    Infeasible {
+        /// The lower bound given, degrees.
+        min_deg: f64,
+        /// The upper bound given, degrees.
+        max_deg: f64,
+    },
+}
+
+impl AngleBounds {
+    /// What the relocated dual keeps: `atan(5 / (3 sqrt 3))` = 43.8978.. to 90
+    /// degrees (paper, section 5.4 and 6.1).
+    pub const EXTENDED: Self = Self { min_deg: 43.897_886_248_013_98, max_deg: 90.0 };
+
+    /// What the plain dual keeps: 30 to 120 degrees (paper, section 4.3).
+    pub const SIMPLE: Self = Self { min_deg: 30.0, max_deg: 120.0 };
+
+    /// Bounds of `min_deg` to `max_deg` degrees.
+    ///
+    /// # Errors
+    ///
+    /// [`BoundsError::Infeasible`] unless `0 <= min_deg <= 60 <= max_deg <= 180`.
+    pub fn new(min_deg: f64, max_deg: f64) -> Result<Self, BoundsError> {
+        if (0.0..=60.0).contains(&min_deg) && (60.0..=180.0).contains(&max_deg) {
+            Ok(Self { min_deg, max_deg })
+        } else {
+            Err(BoundsError::Infeasible { min_deg, max_deg })
+        }
+    }
+
+    /// The smallest angle allowed, degrees.
+    pub const fn min_deg(self) -> f64 {
+        self.min_deg
+    }
+
+    /// The largest angle allowed, degrees.
+    pub const fn max_deg(self) -> f64 {
+        self.max_deg
+    }
+}
+
+impl Default for AngleBounds {
+    fn default() -> Self {
+        Self::EXTENDED
+    }
+}
