@@ -8,10 +8,13 @@
 //! |---|---|
 //! | [`bounds`] | the angle interval a mesh promises |
 //! | [`mesh`] | [`TriMesh`]: vertices and counter-clockwise triangles |
+//! | [`monitor`] | progress and cancellation of long work |
 
 pub mod bounds;
 pub mod mesh;
+pub mod monitor;
 
 pub use bounds::{AngleBounds, BoundsError};
 pub use glam::DVec2;
 pub use mesh::{TriMesh, TriangleId, VertexId};
+pub use monitor::{Cancelled, Monitor, Phase, Unwatched};

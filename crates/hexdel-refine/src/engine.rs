@@ -1,0 +1,357 @@
+//! What is asked when.
+//!
+//! Rules look at one level: what is subdivided there and which input points
+//! occupy its hexagons. What they ask for concerns that level, or, where
+//! hexagons must exist, the next coarser one. Nothing a coarser level does can
+//! break a rule of a finer one, except that a point whose hexagon is subdivided
+//! moves down. Hence the order: always the finest level on which something
+//! changed. A level is first *closed*, round by round, until no rule wants
+//! more of its hexagons subdivided; then its demands are *projected* to the
+//! next coarser one.
+//!
+//! Each round asks all tiles that changed, or have a neighbour that did, about
+//! the state before the round, in parallel; what they ask for is then applied
+//! in tile order. The result therefore does not depend on the number of
+//! threads. A tile is asked again only after a change, so the work is in
+//! proportion to what changes: near-linear in the output.
+
+use crate::rule::{RuleSet, Situation};
+use crate::sites::Site;
+use hexdel_classify::{Occupant, View};
+use hexdel_geom::DVec2;
+use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
+use hexdel_grid::grid::hex_of;
+use hexdel_grid::window::ones;
+use hexdel_grid::{Address, Grid, Lattice, TileId};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+use thiserror::Error;
+
+/// Why points cannot be refined for.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RefineError {
+    /// A point is so close to another that the levels run out.
+    #[error("point {site} at ({}, {}) is closer to another than {levels} levels resolve", point.x, point.y)]
+    TooClose {
+        /// Index of the point, in the order of adding.
+        site: usize,
+        /// The point.
+        point: DVec2,
+        /// How many levels there are.
+        levels: u8,
+    },
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// A grid that obeys rules around input points.
+#[derive(Clone, Debug)]
+pub struct Refiner {
+    grid: Grid,
+    rules: RuleSet,
+    /// All points, in the order of adding. Each occupies a leaf of its level,
+    /// whose mark is set, except while it descends.
+    sites: Vec<Site>,
+    /// Per level: the site that occupies a hexagon, by tile and bit.
+    occupants: Vec<FxHashMap<(TileId, u32), u32>>,
+    /// Per level: tiles whose rules must be asked again.
+    open: Vec<Queue>,
+    /// Per level: tiles whose demands on the next coarser level may have
+    /// grown.
+    unprojected: Vec<Queue>,
+    /// Tiles asked so far, for progress.
+    asked: u64,
+}
+
+/// A list of tiles, each at most once.
+#[derive(Clone, Debug, Default)]
+struct Queue {
+    list: Vec<TileId>,
+    /// Whether a tile is in the list, by id; false beyond the end.
+    queued: Vec<bool>,
+}
+
+impl Queue {
+    fn push(&mut self, id: TileId) {
+        if id.index() >= self.queued.len() {
+            self.queued.resize(id.index() + 1, false);
+        }
+        if !std::mem::replace(&mut self.queued[id.index()], true) {
+            self.list.push(id);
+        }
+    }
+
+    /// Empties the list; in tile order.
+    fn take(&mut self) -> Vec<TileId> {
+        let mut list = std::mem::take(&mut self.list);
+        for id in &list {
+            self.queued[id.index()] = false;
+        }
+        list.sort_unstable();
+        list
+    }
+}
+
+impl Refiner {
+    /// An empty grid on `lattice` that is to obey `rules`.
+    pub fn new(lattice: Lattice, rules: RuleSet) -> Self {
+        Self {
+            grid: Grid::new(lattice),
+            rules,
+            sites: Vec::new(),
+            occupants: Vec::new(),
+            open: Vec::new(),
+            unprojected: Vec::new(),
+            asked: 0,
+        }
+    }
+
+    /// The grid as it stands.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The grid, to add tiles for a mesh.
+    pub fn grid_mut(&mut self) -> &mut Grid {
+        &mut self.grid
+    }
+
+    /// The points and the leaves they occupy, in the order of adding.
+    pub fn occupants(&self) -> Vec<Occupant> {
+        self.sites.iter().map(|s| Occupant { level: s.level, at: s.at, point: s.point }).collect()
+    }
+
+    /// Adds points and refines until every rule holds again.
+    ///
+    /// The points must be distinct and finite. Adding them in batches gives a
+    /// grid that obeys the same rules, though not always the same grid.
+    ///
+    /// # Errors
+    ///
+    /// [`RefineError::TooClose`] if points are too close for the coordinates,
+    /// [`RefineError::Cancelled`] if the monitor asks for it. The refiner is
+    /// then of no further use.
+    ///
+    /// # Complexity
+    ///
+    /// Near-linear in the number of hexagons that come to exist, plus the
+    /// number of points times their levels.
+    pub fn insert(&mut self, points: &[DVec2], monitor: &dyn Monitor) -> Result<(), RefineError> {
+        let first = self.sites.len();
+        let lattice = *self.grid.lattice();
+        self.sites.par_extend(points.par_iter().map(|&p| Site::new(&lattice, p)));
+        self.settle((first..self.sites.len()).collect())?;
+        self.close(monitor)
+    }
+
+    /// Moves points down until no hexagon holds two and no two occupied ones
+    /// are closer than their rings allow.
+    fn settle(&mut self, mut moving: Vec<usize>) -> Result<(), RefineError> {
+        let mut level = 0;
+        while !moving.is_empty() {
+            let mut next = Vec::new();
+            for site in moving {
+                self.occupy(site, &mut next);
+            }
+            // Only points can be in conflict yet; what else the rules want is
+            // asked again when all points have settled.
+            while let Some(queue) = self.open.get_mut(level).filter(|q| !q.list.is_empty()) {
+                let tiles = queue.take();
+                self.asked += tiles.len() as u64;
+                let asked = self.ask(level as u8, tiles);
+                for (id, bits) in asked {
+                    let tile = self.grid.tiles().get(level as u8, id);
+                    let occupied = tile.marks[0] | tile.marks[1];
+                    self.subdivide(level as u8, id, bits & occupied, &mut next);
+                }
+            }
+            next.sort_unstable();
+            moving = next;
+            self.descend(&moving)?;
+            level += 1;
+        }
+        for level in 0..self.unprojected.len() {
+            for id in self.unprojected[level].list.clone() {
+                self.open[level].push(id);
+            }
+        }
+        Ok(())
+    }
+
+    /// Closes and projects levels, finest first.
+    fn close(&mut self, monitor: &dyn Monitor) -> Result<(), RefineError> {
+        let pending = |queues: &[Queue]| queues.iter().rposition(|q| !q.list.is_empty());
+        while let Some(level) = pending(&self.open).max(pending(&self.unprojected)) {
+            check(monitor)?;
+            if self.open[level].list.is_empty() {
+                self.project(level as u8)?;
+            } else {
+                self.round(level as u8)?;
+            }
+            monitor.progress(Phase::Refine, self.asked, self.asked);
+        }
+        Ok(())
+    }
+
+    /// Asks the open tiles of a level once and subdivides what they want.
+    fn round(&mut self, level: u8) -> Result<(), RefineError> {
+        let tiles = self.open[usize::from(level)].take();
+        self.asked += tiles.len() as u64;
+        let mut moving = Vec::new();
+        for (id, bits) in self.ask(level, tiles) {
+            self.subdivide(level, id, bits, &mut moving);
+        }
+        self.sink(moving)
+    }
+
+    /// Moves points whose hexagon was subdivided down to the next leaf.
+    fn sink(&mut self, mut moving: Vec<usize>) -> Result<(), RefineError> {
+        while !moving.is_empty() {
+            moving.sort_unstable();
+            self.descend(&moving)?;
+            let mut next = Vec::new();
+            for site in moving {
+                self.occupy(site, &mut next);
+            }
+            moving = next;
+        }
+        Ok(())
+    }
+
+    /// The hexagons that the rules want subdivided, by tile.
+    fn ask(&self, level: u8, tiles: Vec<TileId>) -> Vec<(TileId, u64)> {
+        let ask = |id| {
+            let view = View::of(&self.grid, level, id);
+            (id, self.rules.must_subdivide(&Situation::of(view)))
+        };
+        tiles.into_par_iter().map(ask).filter(|(_, bits)| *bits != 0).collect()
+    }
+
+    /// Passes the demands of a level on to the next coarser one.
+    fn project(&mut self, level: u8) -> Result<(), RefineError> {
+        let tiles = self.unprojected[usize::from(level)].take();
+        let Some(coarser) = level.checked_sub(1) else { return Ok(()) };
+        self.asked += tiles.len() as u64;
+        let demand = |id| {
+            let situation = Situation::of(View::of(&self.grid, level, id));
+            // The parents of a hexagon are those whose scaled centre it is or
+            // lies beside.
+            (id, self.rules.must_exist(&situation).dilated().even_centre())
+        };
+        let demands: Vec<_> = tiles.into_par_iter().map(demand).filter(|(_, d)| *d != 0).collect();
+        let mut moving = Vec::new();
+        for (id, demand) in demands {
+            let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
+            let bits = in_quadrant(demand, quadrant);
+            let tile = self.grid.tiles_mut().get_mut(coarser, parent);
+            tile.needed |= bits;
+            self.subdivide(coarser, parent, bits, &mut moving);
+        }
+        self.sink(moving)
+    }
+
+    /// Subdivides hexagons of a tile. The points that occupy them are added to
+    /// `moving`.
+    fn subdivide(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<usize>) {
+        let tile = self.grid.tiles_mut().get_mut(level, id);
+        let bits = bits & !tile.subdivided;
+        if bits == 0 {
+            return;
+        }
+        tile.subdivided |= bits;
+        let occupied = bits & (tile.marks[0] | tile.marks[1]);
+        tile.marks = tile.marks.map(|plane| plane & !bits);
+        for bit in ones(occupied) {
+            let site = self.occupants[usize::from(level)].remove(&(id, bit));
+            moving.push(site.expect("a marked hexagon has an occupant") as usize);
+        }
+        self.changed(level, id, bits);
+    }
+
+    /// Puts points one level down.
+    fn descend(&mut self, moving: &[usize]) -> Result<(), RefineError> {
+        let lattice = *self.grid.lattice();
+        for &site in moving {
+            let levels = Grid::MAX_LEVELS;
+            let s = &mut self.sites[site];
+            if s.level + 1 >= levels {
+                return Err(RefineError::TooClose { site, point: s.point, levels });
+            }
+            s.descend(&lattice);
+        }
+        Ok(())
+    }
+
+    /// Lets a point occupy its hexagon. If that is subdivided the point moves
+    /// on, if it is occupied both do.
+    fn occupy(&mut self, site: usize, moving: &mut Vec<usize>) {
+        let (level, hex, plane) = {
+            let s = &self.sites[site];
+            (s.level, s.at.hex, s.plane())
+        };
+        let (id, bit) = self.grid.tile_of(Address::new(level, hex));
+        let tile = self.grid.tiles_mut().get_mut(level, id);
+        if tile.subdivided >> bit & 1 == 1 {
+            moving.push(site);
+            return;
+        }
+        if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
+            moving.push(site);
+            self.subdivide(level, id, 1 << bit, moving);
+            return;
+        }
+        tile.marks[plane] |= 1 << bit;
+        let level = usize::from(level);
+        if level >= self.occupants.len() {
+            self.occupants.resize_with(level + 1, FxHashMap::default);
+        }
+        self.occupants[level].insert((id, bit), site as u32);
+        self.changed(level as u8, id, 1 << bit);
+    }
+
+    /// Notes that hexagons of a tile changed: all tiles that see them are to be
+    /// asked again.
+    fn changed(&mut self, level: u8, id: TileId, bits: u64) {
+        let k = usize::from(level);
+        if k >= self.open.len() {
+            self.open.resize_with(k + 1, Queue::default);
+            self.unprojected.resize_with(k + 1, Queue::default);
+        }
+        self.grid.tiles_mut().require_margin(level, id, bits);
+        for tile in self.grid.tiles().around(level, id) {
+            self.open[k].push(tile);
+            self.unprojected[k].push(tile);
+        }
+    }
+
+    /// The first hexagon that breaks a rule, with the rule's name: `None` after
+    /// every successful [`insert`](Self::insert).
+    pub fn violation(&self) -> Option<(Address, &'static str)> {
+        (0..self.grid.tiles().levels() as u8).find_map(|level| {
+            let ids = (0..self.grid.tiles().level(level).len()).map(TileId::new);
+            ids.into_iter().find_map(|id| self.violation_in(level, id))
+        })
+    }
+
+    fn violation_in(&self, level: u8, id: TileId) -> Option<(Address, &'static str)> {
+        let situation = Situation::of(View::of(&self.grid, level, id));
+        let first = self.grid.tiles().get(level, id).first();
+        let at = |bit| Address::new(level, first + hex_of(bit));
+        self.rules.iter().find_map(|rule| {
+            let asked = rule.must_subdivide(&situation).without(situation.view.subdivided).centre();
+            let missing = ones(rule.must_exist(&situation).centre()).find(|&b| !self.grid.exists(at(b)));
+            ones(asked).next().or(missing).map(|bit| (at(bit), rule.name()))
+        })
+    }
+}
+
+/// Four by four hexagons of a quarter of a tile as bits of the tile.
+fn in_quadrant(demand: u16, quadrant: usize) -> u64 {
+    let (column, row) = (4 * (quadrant & 1), 4 * (quadrant >> 1));
+    (0..4).fold(0, |bits, r| {
+        let four = u64::from(demand >> (4 * r) & 0xf);
+        bits | four << (8 * (row + r) + column)
+    })
+}
