@@ -84,6 +84,30 @@ pub fn star_points(middle: Direction, before: bool, after: bool) -> [Offset; 3] 
     ]
 }
 
+/// Whether the point of an occupied hexagon may stay without its ring being
+/// shifted: class `Occupied1` rather than `Occupied2`.
+///
+/// ```text
+///     g2----g1        The angle at g1 between p and g0 is smallest where p
+///    /  \  /  \       leans away from it. It reaches 43.9 degrees on a line
+///   g3---C---g0       through g1 that cuts the axis C g0 at 2/7 of a step;
+///    \  /  \  /       the twelve such lines bound a dodecagon around the
+///     g4----g5        half-size hexagon, whose corners it has.
+/// ```
+///
+/// The paper asks for the half-size hexagon itself (Fig. 8 left). Its corners
+/// are where the bound is attained, but the dodecagon, which also has corners
+/// at 2/7 of a step on the axes, keeps it and is a seventh larger.
+pub fn ring_may_stay(point: &Located) -> bool {
+    // tan(alpha - 30 degrees) for tan(alpha) = 5 / (3 sqrt 3).
+    const SLOPE: f64 = 0.247_435_829_652_696_96;
+    let p = point.offset;
+    Direction::ALL[..3].iter().all(|d| {
+        let u = Offset::of(d.step()).cartesian();
+        u.dot(p).abs() + SLOPE * u.perp_dot(p).abs() <= 2.0 / 7.0
+    })
+}
+
 /// How far the ring of an `Occupied2` is shifted: half the way to the corner
 /// of the occupied hexagon nearest to the input point.
 ///
@@ -131,7 +155,9 @@ impl Classes {
     }
 
     fn top_relocation(&self, at: Hex) -> Offset {
-        single_run(self.under_of(at)).and_then(|(first, n)| from_run(first, n)).unwrap_or_default()
+        single_run(self.under_of(at))
+            .and_then(|(first, n)| from_run(first, n))
+            .unwrap_or_default()
     }
 }
 
@@ -143,7 +169,10 @@ mod tests {
     #[test]
     fn every_template_turns_with_the_lattice() {
         // Turning axial coordinates by 60 degrees: (q, r) -> (-r, q + r).
-        let turn = |o: Offset| Offset { q: -o.r, r: o.q + o.r };
+        let turn = |o: Offset| Offset {
+            q: -o.r,
+            r: o.q + o.r,
+        };
         for d in Direction::ALL {
             let next = d.turned(1);
             assert_eq!(turn(towards_one(d)), towards_one(next));
@@ -153,7 +182,10 @@ mod tests {
                 assert_eq!(from_run(d, n).map(turn), from_run(next, n));
             }
             for (before, after) in [(false, false), (false, true), (true, false), (true, true)] {
-                assert_eq!(star_points(d, before, after).map(turn), star_points(next, before, after));
+                assert_eq!(
+                    star_points(d, before, after).map(turn),
+                    star_points(next, before, after)
+                );
             }
         }
     }
@@ -173,7 +205,8 @@ mod tests {
         let d = Direction::new(1);
         let [p0, p1, p2] = star_points(d, false, false);
         let step = |by: usize| Offset::of(d.turned(by).step());
-        let half = |a: usize, b: usize| Offset::fraction(d.turned(a).step() + d.turned(b).step(), 1, 2);
+        let half =
+            |a: usize, b: usize| Offset::fraction(d.turned(a).step() + d.turned(b).step(), 1, 2);
         let top = step(3) + from_run(d, 1).unwrap();
         let beside = [step(4) + towards_one(d), step(2) + towards_one(d)];
         let star = [
@@ -200,7 +233,10 @@ mod tests {
         for d in Direction::ALL {
             let corner = Offset::fraction(d.step() + d.turned(1).step(), 1, 3).cartesian();
             assert_eq!(nearest_corner(corner * 0.7), d);
-            let shift = ring_shift(&Located { hex: Hex::ORIGIN, offset: corner * 0.9 });
+            let shift = ring_shift(&Located {
+                hex: Hex::ORIGIN,
+                offset: corner * 0.9,
+            });
             assert!((shift.cartesian() - corner * 0.5).length() < 1e-15);
         }
     }

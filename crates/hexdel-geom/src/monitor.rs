@@ -50,5 +50,9 @@ pub struct Cancelled;
 ///
 /// [`Cancelled`], then.
 pub fn check(monitor: &dyn Monitor) -> Result<(), Cancelled> {
-    if monitor.cancelled() { Err(Cancelled) } else { Ok(()) }
+    if monitor.cancelled() {
+        Err(Cancelled)
+    } else {
+        Ok(())
+    }
 }

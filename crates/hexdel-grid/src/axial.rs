@@ -97,7 +97,10 @@ impl Hex {
             (0, 0) => (low, None),
             (1, 0) => (low, Some(Self::new(low.q + 1, low.r))),
             (0, _) => (low, Some(Self::new(low.q, low.r + 1))),
-            _ => (Self::new(low.q + 1, low.r), Some(Self::new(low.q, low.r + 1))),
+            _ => (
+                Self::new(low.q + 1, low.r),
+                Some(Self::new(low.q, low.r + 1)),
+            ),
         }
     }
 }
@@ -217,7 +220,10 @@ mod tests {
         for n in 0..5 {
             let ring: Vec<_> = Hex::new(3, -2).ring(n).collect();
             assert_eq!(ring.len(), if n == 0 { 1 } else { 6 * n as usize });
-            assert!(ring.iter().all(|h| h.distance(Hex::new(3, -2)) == u64::from(n)));
+            assert!(
+                ring.iter()
+                    .all(|h| h.distance(Hex::new(3, -2)) == u64::from(n))
+            );
             let distinct: std::collections::BTreeSet<_> = ring.iter().collect();
             assert_eq!(distinct.len(), ring.len());
         }

@@ -84,7 +84,9 @@ impl Tiles {
 
     /// The tiles of a level, by id; none where the level is finer than all.
     pub fn level(&self, level: u8) -> &[Tile] {
-        self.levels.get(usize::from(level)).map_or(&[], Vec::as_slice)
+        self.levels
+            .get(usize::from(level))
+            .map_or(&[], Vec::as_slice)
     }
 
     /// A tile.
@@ -115,7 +117,8 @@ impl Tiles {
         let mut id = *self.roots.get(&up(level))?;
         for k in (0..level).rev() {
             let p = up(k);
-            id = self.levels[usize::from(level - k - 1)][id.index()].children[quadrant(p)].some()?;
+            id =
+                self.levels[usize::from(level - k - 1)][id.index()].children[quadrant(p)].some()?;
         }
         Some((id, bit))
     }
@@ -126,7 +129,11 @@ impl Tiles {
         let (position, bit) = split(hex);
         let mut id = self.require_root((position.0 >> level, position.1 >> level));
         for k in (0..level).rev() {
-            id = self.require_child(level - k - 1, id, quadrant((position.0 >> k, position.1 >> k)));
+            id = self.require_child(
+                level - k - 1,
+                id,
+                quadrant((position.0 >> k, position.1 >> k)),
+            );
         }
         (id, bit)
     }
@@ -139,7 +146,10 @@ impl Tiles {
 
     /// The existing tiles among the 3 x 3 around, itself included.
     pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
-        self.get(level, id).around.into_iter().filter_map(TileId::some)
+        self.get(level, id)
+            .around
+            .into_iter()
+            .filter_map(TileId::some)
     }
 
     /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
@@ -155,8 +165,12 @@ impl Tiles {
         }
         let parent = tile.parent;
         let from = self.get(level - 1, parent).position;
-        let parent =
-            self.require_beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
+        let parent = self.require_beside(
+            level - 1,
+            parent,
+            (position.0 >> 1) - from.0,
+            (position.1 >> 1) - from.1,
+        );
         self.require_child(level - 1, parent, quadrant(position))
     }
 
@@ -173,7 +187,10 @@ impl Tiles {
             return child;
         }
         let (q, r) = self.get(level, id).position;
-        let position = (2 * q + (quadrant as i64 & 1), 2 * r + (quadrant as i64 >> 1));
+        let position = (
+            2 * q + (quadrant as i64 & 1),
+            2 * r + (quadrant as i64 >> 1),
+        );
         let child = self.push(level + 1, position, id);
         self.get_mut(level, id).children[quadrant] = child;
         self.link(level + 1, child);
@@ -194,7 +211,11 @@ impl Tiles {
         let tiles = &self.levels[usize::from(level)];
         let around = &tiles[id.index()].around;
         let bits = |i: usize| around[i].some().map_or(0, |t| plane(&tiles[t.index()]));
-        Window::gather(&[[bits(0), bits(1), bits(2)], [bits(3), bits(4), bits(5)], [bits(6), bits(7), bits(8)]])
+        Window::gather(&[
+            [bits(0), bits(1), bits(2)],
+            [bits(3), bits(4), bits(5)],
+            [bits(6), bits(7), bits(8)],
+        ])
     }
 
     /// Makes the neighbours exist that a window around one of `bits` reaches:
@@ -260,8 +281,12 @@ impl Tiles {
             return self.roots.get(&position).copied();
         };
         let from = self.get(level - 1, parent).position;
-        let parent =
-            self.beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1)?;
+        let parent = self.beside(
+            level - 1,
+            parent,
+            (position.0 >> 1) - from.0,
+            (position.1 >> 1) - from.1,
+        )?;
         self.child(level - 1, parent, quadrant(position))
     }
 }
@@ -308,7 +333,10 @@ mod tests {
     #[test]
     fn windows_show_the_hexagons_around_a_tile() {
         let mut tiles = Tiles::default();
-        let set: Vec<_> = Hex::new(4, 4).disc(9).filter(|h| (h.q * 5 + h.r * 3) % 4 == 0).collect();
+        let set: Vec<_> = Hex::new(4, 4)
+            .disc(9)
+            .filter(|h| (h.q * 5 + h.r * 3) % 4 == 0)
+            .collect();
         for &h in &set {
             let (id, bit) = tiles.require(2, h);
             tiles.get_mut(2, id).subdivided |= 1 << bit;
@@ -326,7 +354,12 @@ mod tests {
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
         tiles.require_margin(1, id, 1 << bit);
         let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
-        let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
+        let mut expected = [
+            Hex::new(0, 0),
+            Hex::new(-8, 0),
+            Hex::new(0, 8),
+            Hex::new(-8, 8),
+        ];
         let mut made_sorted = made;
         made_sorted.sort();
         expected.sort();

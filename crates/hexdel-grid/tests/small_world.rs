@@ -1,8 +1,8 @@
 //! Every operation of the grid against a naive reference, for every sequence
 //! of operations in a small world.
 
-use hexdel_grid::{Address, Direction, Grid, Hex, HexKind, Lattice, Neighbour};
 use hexdel_geom::DVec2;
+use hexdel_grid::{Address, Direction, Grid, Hex, HexKind, Lattice, Neighbour};
 use std::collections::BTreeSet;
 
 /// The grid as plain sets, each operation written as the paper says it.
@@ -34,7 +34,9 @@ impl Naive {
     }
 
     fn balanced(&self) -> bool {
-        self.0.iter().all(|&(k, h)| h.disc(1).all(|n| self.full(k, n)))
+        self.0
+            .iter()
+            .all(|&(k, h)| h.disc(1).all(|n| self.full(k, n)))
     }
 
     /// Merging is allowed exactly when the result is balanced again and no
@@ -52,7 +54,10 @@ impl Naive {
 
 fn world() -> Vec<Address> {
     let levels = [(0, 1), (1, 2), (2, 2)];
-    levels.into_iter().flat_map(|(k, n)| Hex::ORIGIN.disc(n).map(move |h| Address::new(k, h))).collect()
+    levels
+        .into_iter()
+        .flat_map(|(k, n)| Hex::ORIGIN.disc(n).map(move |h| Address::new(k, h)))
+        .collect()
 }
 
 fn grid() -> Grid {
@@ -88,7 +93,10 @@ fn check_neighbours(grid: &Grid, at: Address, fins: u8) {
             Neighbour::Finer(n) => {
                 assert_eq!(fins >> d.index() & 1, 1);
                 assert_eq!(grid.kind(n), HexKind::Leaf);
-                assert_eq!(grid.neighbour(n, d.opposite()), Some(Neighbour::Coarser(at)));
+                assert_eq!(
+                    grid.neighbour(n, d.opposite()),
+                    Some(Neighbour::Coarser(at))
+                );
             }
             Neighbour::Coarser(n) => assert_eq!(grid.kind(n), HexKind::Leaf),
         }
@@ -121,7 +129,11 @@ fn merges_match_after_every_pair_of_subdivisions() {
                 naive.subdivide(at.level, at.hex);
             }
             for at in &world {
-                assert_eq!(grid.merge(*at).is_ok(), naive.merge(at.level, at.hex), "{at:?} after {a:?} {b:?}");
+                assert_eq!(
+                    grid.merge(*at).is_ok(),
+                    naive.merge(at.level, at.hex),
+                    "{at:?} after {a:?} {b:?}"
+                );
             }
             assert_same(&grid, &naive);
         }

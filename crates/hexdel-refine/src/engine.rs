@@ -15,6 +15,7 @@
 //! threads. A tile is asked again only after a change, so the work is in
 //! proportion to what changes: near-linear in the output.
 
+use crate::coarsen;
 use crate::rule::{RuleSet, Situation};
 use crate::sites::Site;
 use hexdel_classify::{Occupant, View};
@@ -51,6 +52,8 @@ pub enum RefineError {
 pub struct Refiner {
     grid: Grid,
     rules: RuleSet,
+    /// Whether closed levels are looked over for what can be merged again.
+    coarsening: bool,
     /// All points, in the order of adding. Each occupies a leaf of its level,
     /// whose mark is set, except while it descends.
     sites: Vec<Site>,
@@ -100,12 +103,20 @@ impl Refiner {
         Self {
             grid: Grid::new(lattice),
             rules,
+            coarsening: true,
             sites: Vec::new(),
             occupants: Vec::new(),
             open: Vec::new(),
             unprojected: Vec::new(),
             asked: 0,
         }
+    }
+
+    /// With or without local coarsening (section 5.3); with it by default.
+    #[must_use]
+    pub fn with_coarsening(mut self, coarsening: bool) -> Self {
+        self.coarsening = coarsening;
+        self
     }
 
     /// The grid as it stands.
@@ -120,7 +131,14 @@ impl Refiner {
 
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
-        self.sites.iter().map(|s| Occupant { level: s.level, at: s.at, point: s.point }).collect()
+        self.sites
+            .iter()
+            .map(|s| Occupant {
+                level: s.level,
+                at: s.at,
+                point: s.point,
+            })
+            .collect()
     }
 
     /// Adds points and refines until every rule holds again.
@@ -141,7 +159,8 @@ impl Refiner {
     pub fn insert(&mut self, points: &[DVec2], monitor: &dyn Monitor) -> Result<(), RefineError> {
         let first = self.sites.len();
         let lattice = *self.grid.lattice();
-        self.sites.par_extend(points.par_iter().map(|&p| Site::new(&lattice, p)));
+        self.sites
+            .par_extend(points.par_iter().map(|&p| Site::new(&lattice, p)));
         self.settle((first..self.sites.len()).collect())?;
         self.close(monitor)
     }
@@ -186,6 +205,7 @@ impl Refiner {
         while let Some(level) = pending(&self.open).max(pending(&self.unprojected)) {
             check(monitor)?;
             if self.open[level].list.is_empty() {
+                self.coarsen(level as u8);
                 self.project(level as u8)?;
             } else {
                 self.round(level as u8)?;
@@ -226,24 +246,50 @@ impl Refiner {
             let view = View::of(&self.grid, level, id);
             (id, self.rules.must_subdivide(&Situation::of(view)))
         };
-        tiles.into_par_iter().map(ask).filter(|(_, bits)| *bits != 0).collect()
+        tiles
+            .into_par_iter()
+            .map(ask)
+            .filter(|(_, bits)| *bits != 0)
+            .collect()
+    }
+
+    /// Merges what a closed level has to spare.
+    fn coarsen(&mut self, level: u8) {
+        if self.coarsening {
+            let mut tiles = self.unprojected[usize::from(level)].list.clone();
+            tiles.sort_unstable();
+            coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+        }
     }
 
     /// Passes the demands of a level on to the next coarser one.
     fn project(&mut self, level: u8) -> Result<(), RefineError> {
         let tiles = self.unprojected[usize::from(level)].take();
-        let Some(coarser) = level.checked_sub(1) else { return Ok(()) };
+        let Some(coarser) = level.checked_sub(1) else {
+            return Ok(());
+        };
         self.asked += tiles.len() as u64;
         let demand = |id| {
             let situation = Situation::of(View::of(&self.grid, level, id));
             // The parents of a hexagon are those whose scaled centre it is or
             // lies beside.
-            (id, self.rules.must_exist(&situation).dilated().even_centre())
+            (
+                id,
+                self.rules.must_exist(&situation).dilated().even_centre(),
+            )
         };
-        let demands: Vec<_> = tiles.into_par_iter().map(demand).filter(|(_, d)| *d != 0).collect();
+        let demands: Vec<_> = tiles
+            .into_par_iter()
+            .map(demand)
+            .filter(|(_, d)| *d != 0)
+            .collect();
         let mut moving = Vec::new();
         for (id, demand) in demands {
-            let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
+            let (parent, quadrant) = self
+                .grid
+                .tiles()
+                .parent(level, id)
+                .expect("level 0 is not projected");
             let bits = in_quadrant(demand, quadrant);
             let tile = self.grid.tiles_mut().get_mut(coarser, parent);
             tile.needed |= bits;
@@ -277,7 +323,11 @@ impl Refiner {
             let levels = Grid::MAX_LEVELS;
             let s = &mut self.sites[site];
             if s.level + 1 >= levels {
-                return Err(RefineError::TooClose { site, point: s.point, levels });
+                return Err(RefineError::TooClose {
+                    site,
+                    point: s.point,
+                    levels,
+                });
             }
             s.descend(&lattice);
         }
@@ -340,9 +390,16 @@ impl Refiner {
         let first = self.grid.tiles().get(level, id).first();
         let at = |bit| Address::new(level, first + hex_of(bit));
         self.rules.iter().find_map(|rule| {
-            let asked = rule.must_subdivide(&situation).without(situation.view.subdivided).centre();
-            let missing = ones(rule.must_exist(&situation).centre()).find(|&b| !self.grid.exists(at(b)));
-            ones(asked).next().or(missing).map(|bit| (at(bit), rule.name()))
+            let asked = rule
+                .must_subdivide(&situation)
+                .without(situation.view.subdivided)
+                .centre();
+            let missing =
+                ones(rule.must_exist(&situation).centre()).find(|&b| !self.grid.exists(at(b)));
+            ones(asked)
+                .next()
+                .or(missing)
+                .map(|bit| (at(bit), rule.name()))
         })
     }
 }

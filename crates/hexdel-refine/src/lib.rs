@@ -12,7 +12,9 @@
 //! | [`triangle`] | the rule that section 5.2 lacks |
 //! | [`sites`] | input points and the hexagons they occupy |
 //! | [`engine`] | what is asked when |
+//! | `coarsen` | local coarsening, section 5.3 |
 
+mod coarsen;
 pub mod engine;
 pub mod extended;
 pub mod rule;

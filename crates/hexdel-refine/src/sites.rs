@@ -1,5 +1,6 @@
 //! Input points and the hexagons they occupy.
 
+use hexdel_classify::relocate::ring_may_stay;
 use hexdel_geom::DVec2;
 use hexdel_grid::{Lattice, Located};
 
@@ -17,7 +18,11 @@ pub struct Site {
 impl Site {
     /// A point in the hexagon of level 0 that holds it.
     pub fn new(lattice: &Lattice, point: DVec2) -> Self {
-        Self { point, level: 0, at: lattice.locate(0, point) }
+        Self {
+            point,
+            level: 0,
+            at: lattice.locate(0, point),
+        }
     }
 
     /// Moves the point to the hexagon of the next finer level that holds it.
@@ -29,6 +34,6 @@ impl Site {
     /// The plane of tile marks that the hexagon belongs to: class `Occupied1`
     /// or `Occupied2`.
     pub fn plane(&self) -> usize {
-        usize::from(!self.at.in_half_size())
+        usize::from(!ring_may_stay(&self.at))
     }
 }

@@ -72,16 +72,17 @@ fn victim(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
     if ExactBounds::EXTENDED.hold(places) {
         return None;
     }
-    corners.into_iter().max_by_key(|&at| (rank(c.class_of(at)), at))
+    corners
+        .into_iter()
+        .max_by_key(|&at| (rank(c.class_of(at)), at))
 }
 
 /// How much a class is moved, in the order victims are chosen.
 fn rank(class: Class) -> u8 {
     match class {
-        Class::MovedCenter3 => 4,
-        Class::MovedCenter4 => 3,
-        Class::MovedCenter2 => 2,
-        Class::MovedCenter1 => 1,
+        Class::MovedCenter2 => 3,
+        Class::MovedCenter1 => 2,
+        Class::MovedCenter4 => 1,
         _ => 0,
     }
 }

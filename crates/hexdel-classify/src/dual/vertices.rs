@@ -3,7 +3,7 @@
 use super::layout::{Block, Layout, Sets};
 use super::{Occupant, star};
 use crate::exact::Offset;
-use crate::relocate::ring_shift;
+use crate::relocate::{ring_may_stay, ring_shift};
 use hexdel_geom::{DVec2, VertexId};
 use hexdel_grid::double::Double;
 use hexdel_grid::grid::hex_of;
@@ -74,7 +74,11 @@ impl Frame {
         let first = layout.grid.tiles().get(level, id).first();
         let lattice = layout.grid.lattice();
         let (x, y) = lattice.exact(level, first);
-        Self { x, y, spacing: lattice.spacing(level) }
+        Self {
+            x,
+            y,
+            spacing: lattice.spacing(level),
+        }
     }
 
     /// A point given relative to the tile's first hexagon.
@@ -101,7 +105,7 @@ pub(super) fn place_occupants(
             let (level, hex) = (occupant.level, occupant.at.hex);
             let vertex = vertex_at(layout, level, hex);
             vertices[vertex.index()] = occupant.point;
-            if layout.templates && !occupant.at.in_half_size() {
+            if layout.templates && !ring_may_stay(&occupant.at) {
                 let shift = ring_shift(&occupant.at);
                 for beside in hex.neighbours() {
                     let moved = vertex_at(layout, level, beside);
@@ -121,7 +125,10 @@ fn shifted(layout: &Layout, level: u8, hex: Hex, shift: Offset) -> DVec2 {
 }
 
 fn vertex_at(layout: &Layout, level: u8, hex: Hex) -> VertexId {
-    let (id, bit) =
-        layout.grid.tiles().find(level, hex).expect("an occupied hexagon and its ring lie in tiles");
+    let (id, bit) = layout
+        .grid
+        .tiles()
+        .find(level, hex)
+        .expect("an occupied hexagon and its ring lie in tiles");
     layout.vertex(level, id, bit)
 }
