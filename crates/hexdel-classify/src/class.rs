@@ -139,16 +139,7 @@ impl Classes {
         let middle = std::array::from_fn(|d| moved3 & f(d + 5) & f(d) & f(d + 1));
         let under = Direction::ALL.map(|d| Window::at(middle[d.index()], d));
         let irregular = any.without(moved1 | moved2 | moved3);
-        Self {
-            subdivided,
-            fins,
-            moved1,
-            moved2,
-            moved3,
-            irregular,
-            middle,
-            under,
-        }
+        Self { subdivided, fins, moved1, moved2, moved3, irregular, middle, under }
     }
 
     /// The hexagons with at least one fin.
@@ -202,10 +193,7 @@ impl Classes {
             (self.irregular, Class::Subdivide),
             (self.moved4(), Class::MovedCenter4),
         ];
-        in_set
-            .into_iter()
-            .find(|(set, _)| set.contains(at))
-            .map_or(Class::FixedCenterRegular, |(_, c)| c)
+        in_set.into_iter().find(|(set, _)| set.contains(at)).map_or(Class::FixedCenterRegular, |(_, c)| c)
     }
 }
 
@@ -220,12 +208,8 @@ fn mask(sets: &[Window; 6], at: Hex) -> u8 {
 pub fn single_run(mask: u8) -> Option<(Direction, usize)> {
     let after_another = mask << 1 | mask >> 5;
     let starts = mask & !after_another;
-    (starts.count_ones() == 1).then(|| {
-        (
-            Direction::new(starts.trailing_zeros() as usize),
-            mask.count_ones() as usize,
-        )
-    })
+    (starts.count_ones() == 1)
+        .then(|| (Direction::new(starts.trailing_zeros() as usize), mask.count_ones() as usize))
 }
 
 #[cfg(test)]
@@ -278,10 +262,7 @@ mod tests {
         let set = Window::from_iter([(2, 4), (3, 4), (3, 3), (4, 2)].map(|(q, r)| Hex::new(q, r)));
         let classes = Classes::of(set);
         let (before, after) = classes.in_run();
-        assert_eq!(
-            (before & Window::with_margin(0)).count(),
-            (after & Window::with_margin(0)).count()
-        );
+        assert_eq!((before & Window::with_margin(0)).count(), (after & Window::with_margin(0)).count());
         for h in after.iter().filter(|h| Window::with_margin(2).contains(*h)) {
             let d = (0..6).find(|&d| classes.middle[d].contains(h)).unwrap();
             let next = h.neighbour(Direction::new(d + 2));

@@ -82,10 +82,7 @@ impl Add for Offset {
     type Output = Self;
     #[inline]
     fn add(self, o: Self) -> Self {
-        Self {
-            q: self.q + o.q,
-            r: self.r + o.r,
-        }
+        Self { q: self.q + o.q, r: self.r + o.r }
     }
 }
 
@@ -93,10 +90,7 @@ impl Sub for Offset {
     type Output = Self;
     #[inline]
     fn sub(self, o: Self) -> Self {
-        Self {
-            q: self.q - o.q,
-            r: self.r - o.r,
-        }
+        Self { q: self.q - o.q, r: self.r - o.r }
     }
 }
 
@@ -104,10 +98,7 @@ impl Neg for Offset {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self {
-            q: -self.q,
-            r: -self.r,
-        }
+        Self { q: -self.q, r: -self.r }
     }
 }
 
@@ -122,17 +113,11 @@ pub struct ExactBounds {
 
 impl ExactBounds {
     /// 43.9 to 90 degrees: `sqrt(3) X / D >= 5 / (3 sqrt 3)`, and `D >= 0`.
-    pub const EXTENDED: Self = Self {
-        min: (9, 5),
-        max: (0, -1),
-    };
+    pub const EXTENDED: Self = Self { min: (9, 5), max: (0, -1) };
 
     /// 30 to 120 degrees: `sqrt(3) X / D >= 1 / sqrt(3)`, and
     /// `sqrt(3) X >= -sqrt(3) D`.
-    pub const SIMPLE: Self = Self {
-        min: (3, 1),
-        max: (1, -1),
-    };
+    pub const SIMPLE: Self = Self { min: (3, 1), max: (1, -1) };
 
     /// Whether a counter-clockwise triangle keeps the bounds.
     #[inline]
@@ -143,16 +128,7 @@ impl ExactBounds {
 
     #[inline]
     const fn hold_at(&self, a: Offset, b: Offset, c: Offset) -> bool {
-        let (u, w) = (
-            Offset {
-                q: b.q - a.q,
-                r: b.r - a.r,
-            },
-            Offset {
-                q: c.q - a.q,
-                r: c.r - a.r,
-            },
-        );
+        let (u, w) = (Offset { q: b.q - a.q, r: b.r - a.r }, Offset { q: c.q - a.q, r: c.r - a.r });
         let (x, d) = (u.det(w), u.dot2(w));
         x > 0 && self.min.0 * x >= self.min.1 * d && self.max.0 * x >= self.max.1 * d
     }
@@ -173,21 +149,14 @@ mod tests {
 
     #[test]
     fn integers_agree_with_angles() {
-        let cases = [
-            (ExactBounds::EXTENDED, AngleBounds::EXTENDED),
-            (ExactBounds::SIMPLE, AngleBounds::SIMPLE),
-        ];
+        let cases =
+            [(ExactBounds::EXTENDED, AngleBounds::EXTENDED), (ExactBounds::SIMPLE, AngleBounds::SIMPLE)];
         let points: Vec<_> = (0..400_i64)
-            .map(|i| Offset {
-                q: i * 7919 % 9001 - 4500,
-                r: i * 104_729 % 8999 - 4500,
-            })
+            .map(|i| Offset { q: i * 7919 % 9001 - 4500, r: i * 104_729 % 8999 - 4500 })
             .collect();
         for (exact, bounds) in cases {
             for t in points.windows(3).map(|w| [w[0], w[1], w[2]]) {
-                let inside = angles_deg(t)
-                    .iter()
-                    .all(|a| (bounds.min_deg()..=bounds.max_deg()).contains(a));
+                let inside = angles_deg(t).iter().all(|a| (bounds.min_deg()..=bounds.max_deg()).contains(a));
                 assert_eq!(exact.hold(t), inside, "{t:?} {:?}", angles_deg(t));
             }
         }
@@ -203,10 +172,6 @@ mod tests {
         // The extreme triangle of section 5.4: legs 5 and 3 sqrt(3).
         let extreme = [Offset::ZERO, corner(-3, 6), corner(-3 - 5, 6)];
         assert!(!ExactBounds::EXTENDED.hold([extreme[0], extreme[2], extreme[1]]));
-        assert!(
-            ExactBounds::EXTENDED.hold(extreme),
-            "{:?}",
-            angles_deg(extreme)
-        );
+        assert!(ExactBounds::EXTENDED.hold(extreme), "{:?}", angles_deg(extreme));
     }
 }

@@ -155,9 +155,7 @@ impl Classes {
     }
 
     fn top_relocation(&self, at: Hex) -> Offset {
-        single_run(self.under_of(at))
-            .and_then(|(first, n)| from_run(first, n))
-            .unwrap_or_default()
+        single_run(self.under_of(at)).and_then(|(first, n)| from_run(first, n)).unwrap_or_default()
     }
 }
 
@@ -169,10 +167,7 @@ mod tests {
     #[test]
     fn every_template_turns_with_the_lattice() {
         // Turning axial coordinates by 60 degrees: (q, r) -> (-r, q + r).
-        let turn = |o: Offset| Offset {
-            q: -o.r,
-            r: o.q + o.r,
-        };
+        let turn = |o: Offset| Offset { q: -o.r, r: o.q + o.r };
         for d in Direction::ALL {
             let next = d.turned(1);
             assert_eq!(turn(towards_one(d)), towards_one(next));
@@ -182,10 +177,7 @@ mod tests {
                 assert_eq!(from_run(d, n).map(turn), from_run(next, n));
             }
             for (before, after) in [(false, false), (false, true), (true, false), (true, true)] {
-                assert_eq!(
-                    star_points(d, before, after).map(turn),
-                    star_points(next, before, after)
-                );
+                assert_eq!(star_points(d, before, after).map(turn), star_points(next, before, after));
             }
         }
     }
@@ -205,8 +197,7 @@ mod tests {
         let d = Direction::new(1);
         let [p0, p1, p2] = star_points(d, false, false);
         let step = |by: usize| Offset::of(d.turned(by).step());
-        let half =
-            |a: usize, b: usize| Offset::fraction(d.turned(a).step() + d.turned(b).step(), 1, 2);
+        let half = |a: usize, b: usize| Offset::fraction(d.turned(a).step() + d.turned(b).step(), 1, 2);
         let top = step(3) + from_run(d, 1).unwrap();
         let beside = [step(4) + towards_one(d), step(2) + towards_one(d)];
         let star = [
@@ -233,10 +224,7 @@ mod tests {
         for d in Direction::ALL {
             let corner = Offset::fraction(d.step() + d.turned(1).step(), 1, 3).cartesian();
             assert_eq!(nearest_corner(corner * 0.7), d);
-            let shift = ring_shift(&Located {
-                hex: Hex::ORIGIN,
-                offset: corner * 0.9,
-            });
+            let shift = ring_shift(&Located { hex: Hex::ORIGIN, offset: corner * 0.9 });
             assert!((shift.cartesian() - corner * 0.5).length() < 1e-15);
         }
     }

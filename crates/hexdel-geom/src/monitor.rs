@@ -50,9 +50,5 @@ pub struct Cancelled;
 ///
 /// [`Cancelled`], then.
 pub fn check(monitor: &dyn Monitor) -> Result<(), Cancelled> {
-    if monitor.cancelled() {
-        Err(Cancelled)
-    } else {
-        Ok(())
-    }
+    if monitor.cancelled() { Err(Cancelled) } else { Ok(()) }
 }

@@ -97,10 +97,7 @@ impl Hex {
             (0, 0) => (low, None),
             (1, 0) => (low, Some(Self::new(low.q + 1, low.r))),
             (0, _) => (low, Some(Self::new(low.q, low.r + 1))),
-            _ => (
-                Self::new(low.q + 1, low.r),
-                Some(Self::new(low.q, low.r + 1)),
-            ),
+            _ => (Self::new(low.q + 1, low.r), Some(Self::new(low.q, low.r + 1))),
         }
     }
 }
@@ -145,14 +142,8 @@ impl Direction {
     /// The six directions, counter-clockwise from east.
     pub const ALL: [Self; 6] = [Self(0), Self(1), Self(2), Self(3), Self(4), Self(5)];
 
-    const STEPS: [Hex; 6] = [
-        Hex::new(1, 0),
-        Hex::new(0, 1),
-        Hex::new(-1, 1),
-        Hex::new(-1, 0),
-        Hex::new(0, -1),
-        Hex::new(1, -1),
-    ];
+    const STEPS: [Hex; 6] =
+        [Hex::new(1, 0), Hex::new(0, 1), Hex::new(-1, 1), Hex::new(-1, 0), Hex::new(0, -1), Hex::new(1, -1)];
 
     /// The direction `60 i` degrees from east, counter-clockwise.
     #[inline]
@@ -220,10 +211,7 @@ mod tests {
         for n in 0..5 {
             let ring: Vec<_> = Hex::new(3, -2).ring(n).collect();
             assert_eq!(ring.len(), if n == 0 { 1 } else { 6 * n as usize });
-            assert!(
-                ring.iter()
-                    .all(|h| h.distance(Hex::new(3, -2)) == u64::from(n))
-            );
+            assert!(ring.iter().all(|h| h.distance(Hex::new(3, -2)) == u64::from(n)));
             let distinct: std::collections::BTreeSet<_> = ring.iter().collect();
             assert_eq!(distinct.len(), ring.len());
         }

@@ -22,20 +22,14 @@ pub struct Double {
 
 impl Double {
     /// `sqrt(3) / 2` to 106 bits.
-    pub const HALF_SQRT_3: Self = Self {
-        hi: 0.866_025_403_784_438_6,
-        lo: 5.017_542_110_903_451_4e-17,
-    };
+    pub const HALF_SQRT_3: Self = Self { hi: 0.866_025_403_784_438_6, lo: 5.017_542_110_903_451_4e-17 };
 
     /// `a + b`, exactly.
     #[inline]
     pub fn sum(a: f64, b: f64) -> Self {
         let hi = a + b;
         let t = hi - a;
-        Self {
-            hi,
-            lo: (a - (hi - t)) + (b - t),
-        }
+        Self { hi, lo: (a - (hi - t)) + (b - t) }
     }
 
     /// `a * b`, exactly unless the split overflows (`|a|` or `|b|` above 1e300)
@@ -44,10 +38,7 @@ impl Double {
     pub fn product(a: f64, b: f64) -> Self {
         let hi = a * b;
         let ((ah, al), (bh, bl)) = (split(a), split(b));
-        Self {
-            hi,
-            lo: ((ah * bh - hi) + ah * bl + al * bh) + al * bl,
-        }
+        Self { hi, lo: ((ah * bh - hi) + ah * bl + al * bh) + al * bl }
     }
 
     /// This number times `b`, to about 104 bits.
@@ -95,10 +86,7 @@ impl Sub for Double {
     type Output = Self;
     #[inline]
     fn sub(self, o: Self) -> Self {
-        self + Self {
-            hi: -o.hi,
-            lo: -o.lo,
-        }
+        self + Self { hi: -o.hi, lo: -o.lo }
     }
 }
 

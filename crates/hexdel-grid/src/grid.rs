@@ -82,10 +82,7 @@ impl Grid {
 
     /// A grid of level-0 hexagons on `lattice`.
     pub fn new(lattice: Lattice) -> Self {
-        Self {
-            lattice,
-            tiles: Tiles::default(),
-        }
+        Self { lattice, tiles: Tiles::default() }
     }
 
     /// Where the grid lies in the plane.
@@ -119,11 +116,7 @@ impl Grid {
     /// What stands at a place. Takes a step per level.
     pub fn kind(&self, at: Address) -> HexKind {
         let full = |at| {
-            if self.is_subdivided(at) {
-                HexKind::Subdivided
-            } else {
-                HexKind::Leaf
-            }
+            if self.is_subdivided(at) { HexKind::Subdivided } else { HexKind::Leaf }
         };
         let Some(coarser) = at.level.checked_sub(1) else {
             return full(at);
@@ -226,28 +219,13 @@ impl Grid {
     /// hexagons that would vanish is subdivided or next to one that is. The
     /// grid is then unchanged.
     pub fn merge(&mut self, at: Address) -> Result<(), MergeError> {
-        let Some((id, bit)) = self
-            .tiles
-            .find(at.level, at.hex)
-            .filter(|_| self.is_subdivided(at))
-        else {
+        let Some((id, bit)) = self.tiles.find(at.level, at.hex).filter(|_| self.is_subdivided(at)) else {
             return Err(MergeError::NotSubdivided(at));
         };
-        for child in at
-            .hex
-            .scaled()
-            .disc(1)
-            .map(|h| Address::new(at.level + 1, h))
-        {
-            let needed = child
-                .hex
-                .disc(1)
-                .any(|h| self.is_subdivided(Address::new(child.level, h)));
+        for child in at.hex.scaled().disc(1).map(|h| Address::new(at.level + 1, h)) {
+            let needed = child.hex.disc(1).any(|h| self.is_subdivided(Address::new(child.level, h)));
             if needed && self.exists(child) {
-                return Err(MergeError::Needed {
-                    hexagon: at,
-                    needed: child,
-                });
+                return Err(MergeError::Needed { hexagon: at, needed: child });
             }
         }
         self.tiles.get_mut(at.level, id).subdivided &= !(1 << bit);
@@ -267,11 +245,7 @@ impl Grid {
     /// The first hexagon that breaks balance: a subdivided one with a
     /// neighbour that does not exist.
     pub fn unbalanced(&self) -> Option<Address> {
-        self.subdivided().find(|at| {
-            at.hex
-                .disc(1)
-                .any(|hex| !self.exists(Address::new(at.level, hex)))
-        })
+        self.subdivided().find(|at| at.hex.disc(1).any(|hex| !self.exists(Address::new(at.level, hex))))
     }
 
     /// The id and bit of a hexagon's tile, the tile made if need be.

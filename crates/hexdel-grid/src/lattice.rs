@@ -92,19 +92,13 @@ impl Lattice {
         // so one or two steps settle it; the third is for a point on an edge.
         for _ in 0..3 {
             let offset = self.offset(level, hex, x, y);
-            let step = nearest(
-                offset.x - offset.y / SQRT_3,
-                offset.y / Double::HALF_SQRT_3.hi,
-            );
+            let step = nearest(offset.x - offset.y / SQRT_3, offset.y / Double::HALF_SQRT_3.hi);
             if step == Hex::ORIGIN || hexagonal_norm(offset) <= 0.5 {
                 return Located { hex, offset };
             }
             hex = hex + step;
         }
-        Located {
-            hex,
-            offset: self.offset(level, hex, x, y),
-        }
+        Located { hex, offset: self.offset(level, hex, x, y) }
     }
 
     /// From the centre of `hex` to the point `(x, y)` relative to the origin,
@@ -161,10 +155,7 @@ mod tests {
     fn offsets_stay_within_the_cell() {
         let lattice = Lattice::new(DVec2::ZERO, 1.0);
         for i in 0..1000 {
-            let p = DVec2::new(
-                f64::from(i) * 0.0137 - 5.0,
-                f64::from(i * 7 % 1000) * 0.011 - 4.0,
-            );
+            let p = DVec2::new(f64::from(i) * 0.0137 - 5.0, f64::from(i * 7 % 1000) * 0.011 - 4.0);
             for level in 0..12 {
                 assert!(hexagonal_norm(lattice.locate(level, p).offset) <= 0.5 + 1e-12);
             }

@@ -84,9 +84,7 @@ impl Tiles {
 
     /// The tiles of a level, by id; none where the level is finer than all.
     pub fn level(&self, level: u8) -> &[Tile] {
-        self.levels
-            .get(usize::from(level))
-            .map_or(&[], Vec::as_slice)
+        self.levels.get(usize::from(level)).map_or(&[], Vec::as_slice)
     }
 
     /// A tile.
@@ -117,8 +115,7 @@ impl Tiles {
         let mut id = *self.roots.get(&up(level))?;
         for k in (0..level).rev() {
             let p = up(k);
-            id =
-                self.levels[usize::from(level - k - 1)][id.index()].children[quadrant(p)].some()?;
+            id = self.levels[usize::from(level - k - 1)][id.index()].children[quadrant(p)].some()?;
         }
         Some((id, bit))
     }
@@ -129,11 +126,7 @@ impl Tiles {
         let (position, bit) = split(hex);
         let mut id = self.require_root((position.0 >> level, position.1 >> level));
         for k in (0..level).rev() {
-            id = self.require_child(
-                level - k - 1,
-                id,
-                quadrant((position.0 >> k, position.1 >> k)),
-            );
+            id = self.require_child(level - k - 1, id, quadrant((position.0 >> k, position.1 >> k)));
         }
         (id, bit)
     }
@@ -146,10 +139,7 @@ impl Tiles {
 
     /// The existing tiles among the 3 x 3 around, itself included.
     pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
-        self.get(level, id)
-            .around
-            .into_iter()
-            .filter_map(TileId::some)
+        self.get(level, id).around.into_iter().filter_map(TileId::some)
     }
 
     /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
@@ -165,12 +155,8 @@ impl Tiles {
         }
         let parent = tile.parent;
         let from = self.get(level - 1, parent).position;
-        let parent = self.require_beside(
-            level - 1,
-            parent,
-            (position.0 >> 1) - from.0,
-            (position.1 >> 1) - from.1,
-        );
+        let parent =
+            self.require_beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
         self.require_child(level - 1, parent, quadrant(position))
     }
 
@@ -187,10 +173,7 @@ impl Tiles {
             return child;
         }
         let (q, r) = self.get(level, id).position;
-        let position = (
-            2 * q + (quadrant as i64 & 1),
-            2 * r + (quadrant as i64 >> 1),
-        );
+        let position = (2 * q + (quadrant as i64 & 1), 2 * r + (quadrant as i64 >> 1));
         let child = self.push(level + 1, position, id);
         self.get_mut(level, id).children[quadrant] = child;
         self.link(level + 1, child);
@@ -281,12 +264,8 @@ impl Tiles {
             return self.roots.get(&position).copied();
         };
         let from = self.get(level - 1, parent).position;
-        let parent = self.beside(
-            level - 1,
-            parent,
-            (position.0 >> 1) - from.0,
-            (position.1 >> 1) - from.1,
-        )?;
+        let parent =
+            self.beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1)?;
         self.child(level - 1, parent, quadrant(position))
     }
 }
@@ -321,10 +300,7 @@ mod tests {
                 for i in 0..9 {
                     let (column, row) = (i % 3 - 1, i / 3 - 1);
                     let there = h + Hex::new(SIDE * column, SIDE * row);
-                    assert_eq!(
-                        tiles.beside(3, id, column, row),
-                        tiles.find(3, there).map(|(t, _)| t)
-                    );
+                    assert_eq!(tiles.beside(3, id, column, row), tiles.find(3, there).map(|(t, _)| t));
                 }
             }
         }
@@ -333,10 +309,7 @@ mod tests {
     #[test]
     fn windows_show_the_hexagons_around_a_tile() {
         let mut tiles = Tiles::default();
-        let set: Vec<_> = Hex::new(4, 4)
-            .disc(9)
-            .filter(|h| (h.q * 5 + h.r * 3) % 4 == 0)
-            .collect();
+        let set: Vec<_> = Hex::new(4, 4).disc(9).filter(|h| (h.q * 5 + h.r * 3) % 4 == 0).collect();
         for &h in &set {
             let (id, bit) = tiles.require(2, h);
             tiles.get_mut(2, id).subdivided |= 1 << bit;
@@ -354,12 +327,7 @@ mod tests {
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
         tiles.require_margin(1, id, 1 << bit);
         let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
-        let mut expected = [
-            Hex::new(0, 0),
-            Hex::new(-8, 0),
-            Hex::new(0, 8),
-            Hex::new(-8, 8),
-        ];
+        let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
         let mut made_sorted = made;
         made_sorted.sort();
         expected.sort();

@@ -143,8 +143,7 @@ impl Window {
     pub fn iter(self) -> impl Iterator<Item = Hex> {
         let base = Hex::new(-Self::MARGIN, -Self::MARGIN);
         self.0.into_iter().enumerate().flat_map(move |(w, word)| {
-            ones(word)
-                .map(move |b| base + Hex::new(i64::from(b % 16), w as i64 * 4 + i64::from(b / 16)))
+            ones(word).map(move |b| base + Hex::new(i64::from(b % 16), w as i64 * 4 + i64::from(b / 16)))
         })
     }
 
@@ -164,10 +163,7 @@ impl Window {
     /// `8 row + column`.
     #[inline]
     pub fn cut(self, corner: Hex) -> u64 {
-        let (column, first) = (
-            (corner.q + Self::MARGIN) as usize,
-            (corner.r + Self::MARGIN) as usize,
-        );
+        let (column, first) = ((corner.q + Self::MARGIN) as usize, (corner.r + Self::MARGIN) as usize);
         debug_assert!(column <= 8 && first <= 8);
         let mut bits = 0;
         for row in 0..8 {

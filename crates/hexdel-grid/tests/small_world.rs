@@ -34,9 +34,7 @@ impl Naive {
     }
 
     fn balanced(&self) -> bool {
-        self.0
-            .iter()
-            .all(|&(k, h)| h.disc(1).all(|n| self.full(k, n)))
+        self.0.iter().all(|&(k, h)| h.disc(1).all(|n| self.full(k, n)))
     }
 
     /// Merging is allowed exactly when the result is balanced again and no
@@ -54,10 +52,7 @@ impl Naive {
 
 fn world() -> Vec<Address> {
     let levels = [(0, 1), (1, 2), (2, 2)];
-    levels
-        .into_iter()
-        .flat_map(|(k, n)| Hex::ORIGIN.disc(n).map(move |h| Address::new(k, h)))
-        .collect()
+    levels.into_iter().flat_map(|(k, n)| Hex::ORIGIN.disc(n).map(move |h| Address::new(k, h))).collect()
 }
 
 fn grid() -> Grid {
@@ -93,10 +88,7 @@ fn check_neighbours(grid: &Grid, at: Address, fins: u8) {
             Neighbour::Finer(n) => {
                 assert_eq!(fins >> d.index() & 1, 1);
                 assert_eq!(grid.kind(n), HexKind::Leaf);
-                assert_eq!(
-                    grid.neighbour(n, d.opposite()),
-                    Some(Neighbour::Coarser(at))
-                );
+                assert_eq!(grid.neighbour(n, d.opposite()), Some(Neighbour::Coarser(at)));
             }
             Neighbour::Coarser(n) => assert_eq!(grid.kind(n), HexKind::Leaf),
         }

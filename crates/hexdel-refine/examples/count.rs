@@ -46,19 +46,15 @@ fn run(name: &str, mut pts: Vec<DVec2>, out: Option<&str>, scale: f64) -> usize 
         sp(q.0) | sp(q.1) << 1
     });
     let simple = std::env::var("SIMPLE").is_ok();
-    let mut rules = if simple {
-        RuleSet::simple()
-    } else {
-        RuleSet::extended()
-    };
+    let mut rules = if simple { RuleSet::simple() } else { RuleSet::extended() };
     if let Ok(w) = std::env::var("WITHOUT") {
         for n in w.split(',') {
             rules = rules.without(n);
         }
     }
     let t0 = Instant::now();
-    let mut refiner = Refiner::new(Lattice::new(c, r * scale), rules)
-        .with_coarsening(std::env::var("FINE").is_err());
+    let mut refiner =
+        Refiner::new(Lattice::new(c, r * scale), rules).with_coarsening(std::env::var("FINE").is_err());
     refiner.insert(&pts, &Unwatched).unwrap();
     let t1 = Instant::now();
     if pts.len() < 5000 {
@@ -80,10 +76,7 @@ fn run(name: &str, mut pts: Vec<DVec2>, out: Option<&str>, scale: f64) -> usize 
             break;
         }
         let d = extract(refiner.grid_mut(), &occ, domain, !simple, &Unwatched).unwrap();
-        if best
-            .as_ref()
-            .is_none_or(|b| d.mesh.triangles.len() < b.mesh.triangles.len())
-        {
+        if best.as_ref().is_none_or(|b| d.mesh.triangles.len() < b.mesh.triangles.len()) {
             best = Some(d);
         }
         if pts.len() > 5000 {
@@ -120,9 +113,7 @@ fn run(name: &str, mut pts: Vec<DVec2>, out: Option<&str>, scale: f64) -> usize 
 }
 fn main() {
     let a: Vec<String> = std::env::args().collect();
-    let scale: f64 = std::env::var("SCALE")
-        .ok()
-        .map_or(4.0, |s| s.parse().unwrap());
+    let scale: f64 = std::env::var("SCALE").ok().map_or(4.0, |s| s.parse().unwrap());
     if a[1] == "uniform" {
         let n: usize = a[2].parse().unwrap();
         let seeds: u64 = a[3].parse().unwrap();
@@ -145,10 +136,7 @@ pub fn stats(r: &Refiner) {
         }
     }
     let occ = r.occupants();
-    let two = occ
-        .iter()
-        .filter(|o| !hexdel_classify::relocate::ring_may_stay(&o.at))
-        .count();
+    let two = occ.iter().filter(|o| !hexdel_classify::relocate::ring_may_stay(&o.at)).count();
     // level relative to nearest neighbour
     let mut hist = [[0u32; 12]; 2];
     for (i, o) in occ.iter().enumerate() {
@@ -162,8 +150,5 @@ pub fn stats(r: &Refiner) {
         let b = (x.max(1.0).log2() * 2.0) as usize;
         hist[usize::from(!hexdel_classify::relocate::ring_may_stay(&o.at))][b.min(11)] += 1;
     }
-    println!(
-        "S {s} needed {need} occ2 {two} of {} nn/s hist by half-octave: {hist:?}",
-        occ.len()
-    );
+    println!("S {s} needed {need} occ2 {two} of {} nn/s hist by half-octave: {hist:?}", occ.len());
 }

@@ -34,10 +34,8 @@ pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &Rule
         }
     }
     for tiles in colours {
-        let merged: Vec<_> = tiles
-            .into_par_iter()
-            .map(|id| Patch::of(grid, level, id).coarsened(rules))
-            .collect();
+        let merged: Vec<_> =
+            tiles.into_par_iter().map(|id| Patch::of(grid, level, id).coarsened(rules)).collect();
         for (id, subdivided) in merged.into_iter().flatten() {
             grid.tiles_mut().get_mut(level, id).subdivided = subdivided;
         }
@@ -67,12 +65,7 @@ struct Patch {
 impl Patch {
     fn of(grid: &Grid, level: u8, centre: TileId) -> Self {
         let tiles = grid.tiles();
-        let mut patch = Self {
-            ids: [None; 25],
-            subdivided: [0; 25],
-            needed: [0; 25],
-            marks: [[0; 25]; 2],
-        };
+        let mut patch = Self { ids: [None; 25], subdivided: [0; 25], needed: [0; 25], marks: [[0; 25]; 2] };
         for row in -1..=1 {
             for column in -1..=1 {
                 let Some(inner) = tiles.beside(level, centre, column, row) else {

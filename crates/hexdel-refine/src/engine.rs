@@ -131,14 +131,7 @@ impl Refiner {
 
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
-        self.sites
-            .iter()
-            .map(|s| Occupant {
-                level: s.level,
-                at: s.at,
-                point: s.point,
-            })
-            .collect()
+        self.sites.iter().map(|s| Occupant { level: s.level, at: s.at, point: s.point }).collect()
     }
 
     /// Adds points and refines until every rule holds again.
@@ -159,8 +152,7 @@ impl Refiner {
     pub fn insert(&mut self, points: &[DVec2], monitor: &dyn Monitor) -> Result<(), RefineError> {
         let first = self.sites.len();
         let lattice = *self.grid.lattice();
-        self.sites
-            .par_extend(points.par_iter().map(|&p| Site::new(&lattice, p)));
+        self.sites.par_extend(points.par_iter().map(|&p| Site::new(&lattice, p)));
         self.settle((first..self.sites.len()).collect())?;
         self.close(monitor)
     }
@@ -246,11 +238,7 @@ impl Refiner {
             let view = View::of(&self.grid, level, id);
             (id, self.rules.must_subdivide(&Situation::of(view)))
         };
-        tiles
-            .into_par_iter()
-            .map(ask)
-            .filter(|(_, bits)| *bits != 0)
-            .collect()
+        tiles.into_par_iter().map(ask).filter(|(_, bits)| *bits != 0).collect()
     }
 
     /// Merges what a closed level has to spare.
@@ -273,23 +261,12 @@ impl Refiner {
             let situation = Situation::of(View::of(&self.grid, level, id));
             // The parents of a hexagon are those whose scaled centre it is or
             // lies beside.
-            (
-                id,
-                self.rules.must_exist(&situation).dilated().even_centre(),
-            )
+            (id, self.rules.must_exist(&situation).dilated().even_centre())
         };
-        let demands: Vec<_> = tiles
-            .into_par_iter()
-            .map(demand)
-            .filter(|(_, d)| *d != 0)
-            .collect();
+        let demands: Vec<_> = tiles.into_par_iter().map(demand).filter(|(_, d)| *d != 0).collect();
         let mut moving = Vec::new();
         for (id, demand) in demands {
-            let (parent, quadrant) = self
-                .grid
-                .tiles()
-                .parent(level, id)
-                .expect("level 0 is not projected");
+            let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
             let bits = in_quadrant(demand, quadrant);
             let tile = self.grid.tiles_mut().get_mut(coarser, parent);
             tile.needed |= bits;
@@ -323,11 +300,7 @@ impl Refiner {
             let levels = Grid::MAX_LEVELS;
             let s = &mut self.sites[site];
             if s.level + 1 >= levels {
-                return Err(RefineError::TooClose {
-                    site,
-                    point: s.point,
-                    levels,
-                });
+                return Err(RefineError::TooClose { site, point: s.point, levels });
             }
             s.descend(&lattice);
         }
@@ -390,16 +363,9 @@ impl Refiner {
         let first = self.grid.tiles().get(level, id).first();
         let at = |bit| Address::new(level, first + hex_of(bit));
         self.rules.iter().find_map(|rule| {
-            let asked = rule
-                .must_subdivide(&situation)
-                .without(situation.view.subdivided)
-                .centre();
-            let missing =
-                ones(rule.must_exist(&situation).centre()).find(|&b| !self.grid.exists(at(b)));
-            ones(asked)
-                .next()
-                .or(missing)
-                .map(|bit| (at(bit), rule.name()))
+            let asked = rule.must_subdivide(&situation).without(situation.view.subdivided).centre();
+            let missing = ones(rule.must_exist(&situation).centre()).find(|&b| !self.grid.exists(at(b)));
+            ones(asked).next().or(missing).map(|bit| (at(bit), rule.name()))
         })
     }
 }

@@ -82,19 +82,12 @@ impl Rule for OccupiedRings {
         if occupied.count() < 2 {
             return Window::EMPTY;
         }
-        let all: Vec<_> = occupied
-            .iter()
-            .map(|at| (at, s.view.occupied2.contains(at)))
-            .collect();
+        let all: Vec<_> = occupied.iter().map(|at| (at, s.view.occupied2.contains(at))).collect();
         let close = |&(at, two): &(Hex, bool)| {
-            all.iter().any(|&(other, other_two)| {
-                at != other && at.distance(other) < Self::apart(two, other_two)
-            })
+            all.iter()
+                .any(|&(other, other_two)| at != other && at.distance(other) < Self::apart(two, other_two))
         };
-        all.iter()
-            .filter(|at| close(at))
-            .map(|(at, _)| *at)
-            .collect()
+        all.iter().filter(|at| close(at)).map(|(at, _)| *at).collect()
     }
 }
 
@@ -145,9 +138,9 @@ impl Rule for TopWithFins {
 
     fn must_subdivide(&self, s: &Situation) -> Window {
         let finned = s.classes.finned();
-        Direction::ALL.into_iter().fold(Window::EMPTY, |set, d| {
-            set | s.classes.middle[d.index()] & finned.at(d.opposite())
-        })
+        Direction::ALL
+            .into_iter()
+            .fold(Window::EMPTY, |set, d| set | s.classes.middle[d.index()] & finned.at(d.opposite()))
     }
 }
 

@@ -16,10 +16,7 @@ pub struct Situation {
 impl Situation {
     /// Classifies a view.
     pub fn of(view: View) -> Self {
-        Self {
-            view,
-            classes: Classes::of(view.subdivided),
-        }
+        Self { view, classes: Classes::of(view.subdivided) }
     }
 }
 
@@ -55,21 +52,14 @@ pub struct RuleSet {
 impl RuleSet {
     /// The rules of section 4.1: angles between 30 and 120 degrees.
     pub fn simple() -> Self {
-        Self {
-            rules: simple::RULES.to_vec(),
-        }
+        Self { rules: simple::RULES.to_vec() }
     }
 
     /// The rules of sections 4.1 and 5.2 and the triangle rule: angles between
     /// 43.9 and 90 degrees.
     pub fn extended() -> Self {
-        let rules = simple::RULES
-            .iter()
-            .chain(extended::RULES)
-            .chain(triangle::RULES);
-        Self {
-            rules: rules.copied().collect(),
-        }
+        let rules = simple::RULES.iter().chain(extended::RULES).chain(triangle::RULES);
+        Self { rules: rules.copied().collect() }
     }
 
     /// These rules without the one of that name.
@@ -86,16 +76,13 @@ impl RuleSet {
 
     /// The hexagons of a tile that some rule wants subdivided and that are not.
     pub fn must_subdivide(&self, situation: &Situation) -> u64 {
-        let asked = self.iter().fold(Window::EMPTY, |set, rule| {
-            set | rule.must_subdivide(situation)
-        });
+        let asked = self.iter().fold(Window::EMPTY, |set, rule| set | rule.must_subdivide(situation));
         asked.without(situation.view.subdivided).centre()
     }
 
     /// The hexagons that some rule wants to exist.
     pub fn must_exist(&self, situation: &Situation) -> Window {
-        self.iter()
-            .fold(Window::EMPTY, |set, rule| set | rule.must_exist(situation))
+        self.iter().fold(Window::EMPTY, |set, rule| set | rule.must_exist(situation))
     }
 }
 

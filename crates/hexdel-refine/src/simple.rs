@@ -8,12 +8,7 @@ use crate::rule::{Rule, Situation};
 use hexdel_grid::{Direction, Window};
 
 /// The rules of this module, in the paper's order.
-pub static RULES: &[&dyn Rule] = &[
-    &Balance,
-    &AdjacentOccupied,
-    &OccupiedAmongFull,
-    &OccupiedBesideFiner,
-];
+pub static RULES: &[&dyn Rule] = &[&Balance, &AdjacentOccupied, &OccupiedAmongFull, &OccupiedBesideFiner];
 
 /// Section 3.3: a subdivided hexagon is surrounded by hexagons of its level.
 pub struct Balance;
@@ -74,7 +69,5 @@ impl Rule for OccupiedBesideFiner {
 
 /// The hexagons with a neighbour in the set.
 fn beside(set: Window) -> Window {
-    Direction::ALL
-        .into_iter()
-        .fold(Window::EMPTY, |all, d| all | set.at(d))
+    Direction::ALL.into_iter().fold(Window::EMPTY, |all, d| all | set.at(d))
 }

@@ -18,11 +18,7 @@ pub struct Site {
 impl Site {
     /// A point in the hexagon of level 0 that holds it.
     pub fn new(lattice: &Lattice, point: DVec2) -> Self {
-        Self {
-            point,
-            level: 0,
-            at: lattice.locate(0, point),
-        }
+        Self { point, level: 0, at: lattice.locate(0, point) }
     }
 
     /// Moves the point to the hexagon of the next finer level that holds it.

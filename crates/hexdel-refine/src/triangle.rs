@@ -72,9 +72,7 @@ fn victim(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
     if ExactBounds::EXTENDED.hold(places) {
         return None;
     }
-    corners
-        .into_iter()
-        .max_by_key(|&at| (rank(c.class_of(at)), at))
+    corners.into_iter().max_by_key(|&at| (rank(c.class_of(at)), at))
 }
 
 /// How much a class is moved, in the order victims are chosen.

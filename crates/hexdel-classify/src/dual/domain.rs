@@ -24,10 +24,7 @@ impl Domain {
     /// tile whose first hexagon is `first`.
     pub(super) fn window(&self, first: Hex) -> Window {
         let radius = u64::from(self.radius);
-        Window::FULL
-            .iter()
-            .filter(|&at| (first + at).norm() <= radius)
-            .collect()
+        Window::FULL.iter().filter(|&at| (first + at).norm() <= radius).collect()
     }
 
     /// The smallest patch of a base level whose rim nothing touches; `None` if
@@ -40,17 +37,12 @@ impl Domain {
         let reach = tiles(grid, base_level)
             .flat_map(|id| {
                 let first = grid.tiles().get(base_level, id).first();
-                busy(grid, base_level, id)
-                    .iter()
-                    .map(move |at| (first + at).norm())
+                busy(grid, base_level, id).iter().map(move |at| (first + at).norm())
             })
             .max();
         // One more ring of leaves that stay: the rim. A patch of nothing at
         // all still has a triangle to show.
-        Some(Self {
-            base_level,
-            radius: reach.map_or(1, |n| n as u32 + 1),
-        })
+        Some(Self { base_level, radius: reach.map_or(1, |n| n as u32 + 1) })
     }
 }
 
@@ -64,7 +56,6 @@ pub(super) fn tiles(grid: &Grid, level: u8) -> impl Iterator<Item = TileId> + us
 fn busy(grid: &Grid, level: u8, id: TileId) -> Window {
     let view = View::of(grid, level, id);
     let classes = Classes::of(view.subdivided);
-    let moved =
-        view.subdivided.dilated() | classes.moved4() | view.occupied1 | view.occupied2.dilated();
+    let moved = view.subdivided.dilated() | classes.moved4() | view.occupied1 | view.occupied2.dilated();
     moved & Window::with_margin(0)
 }

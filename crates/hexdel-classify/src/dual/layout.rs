@@ -46,23 +46,11 @@ pub struct Layout<'a> {
 impl<'a> Layout<'a> {
     /// Counts the vertices and triangles of all tiles.
     pub(super) fn new(grid: &'a Grid, domain: Domain, templates: bool) -> Result<Self, DualError> {
-        let mut layout = Self {
-            grid,
-            domain,
-            templates,
-            blocks: Vec::new(),
-            vertex_count: 0,
-        };
+        let mut layout = Self { grid, domain, templates, blocks: Vec::new(), vertex_count: 0 };
         for level in 0..grid.tiles().levels() as u8 {
-            let tiles = if level < domain.base_level {
-                0
-            } else {
-                grid.tiles().level(level).len()
-            };
-            let mut blocks: Vec<Block> = (0..tiles)
-                .into_par_iter()
-                .map(|i| layout.block(level, TileId::new(i)))
-                .collect();
+            let tiles = if level < domain.base_level { 0 } else { grid.tiles().level(level).len() };
+            let mut blocks: Vec<Block> =
+                (0..tiles).into_par_iter().map(|i| layout.block(level, TileId::new(i))).collect();
             for block in &mut blocks {
                 block.first_vertex = layout.vertex_count as u32;
                 layout.vertex_count += u64::from(block.vertices.count_ones());
@@ -70,20 +58,14 @@ impl<'a> Layout<'a> {
             layout.blocks.push(blocks);
         }
         if layout.vertex_count > u64::from(u32::MAX) {
-            return Err(DualError::TooManyVertices {
-                count: layout.vertex_count,
-            });
+            return Err(DualError::TooManyVertices { count: layout.vertex_count });
         }
         Ok(layout)
     }
 
     /// How many triangles the mesh has.
     pub fn triangles(&self) -> u64 {
-        self.blocks
-            .iter()
-            .flatten()
-            .map(|b| u64::from(b.triangles))
-            .sum()
+        self.blocks.iter().flatten().map(|b| u64::from(b.triangles)).sum()
     }
 
     /// How many vertices the mesh has.
@@ -95,10 +77,7 @@ impl<'a> Layout<'a> {
     /// with how many vertices and triangles they own.
     pub(super) fn owners(&self) -> impl Iterator<Item = (u8, TileId, Block)> {
         self.blocks.iter().enumerate().flat_map(|(level, blocks)| {
-            let owned = blocks
-                .iter()
-                .enumerate()
-                .filter(|(_, b)| b.vertices != 0 || b.triangles != 0);
+            let owned = blocks.iter().enumerate().filter(|(_, b)| b.vertices != 0 || b.triangles != 0);
             owned.map(move |(i, &b)| (level as u8, TileId::new(i), b))
         })
     }
@@ -111,30 +90,17 @@ impl<'a> Layout<'a> {
     #[inline]
     pub(super) fn vertex(&self, level: u8, id: TileId, bit: u32) -> VertexId {
         let block = &self.blocks[usize::from(level)][id.index()];
-        debug_assert!(
-            block.vertices >> bit & 1 == 1,
-            "no vertex at bit {bit} of {id:?}, level {level}"
-        );
+        debug_assert!(block.vertices >> bit & 1 == 1, "no vertex at bit {bit} of {id:?}, level {level}");
         let rank = (block.vertices & ((1 << bit) - 1)).count_ones();
         VertexId::new((block.first_vertex + rank) as usize)
     }
 
     fn block(&self, level: u8, id: TileId) -> Block {
         let sets = self.sets(level, id);
-        let subdivided = sets
-            .classes
-            .as_ref()
-            .map_or(Window::EMPTY, |c| c.subdivided);
-        let dropped = sets
-            .classes
-            .as_ref()
-            .map_or(Window::EMPTY, |c| self.single(c));
+        let subdivided = sets.classes.as_ref().map_or(Window::EMPTY, |c| c.subdivided);
+        let dropped = sets.classes.as_ref().map_or(Window::EMPTY, |c| self.single(c));
         let vertices = sets.exists.without(subdivided | dropped) | sets.inserted;
-        Block {
-            vertices: vertices.centre(),
-            first_vertex: 0,
-            triangles: self.count(&sets),
-        }
+        Block { vertices: vertices.centre(), first_vertex: 0, triangles: self.count(&sets) }
     }
 
     /// The `MovedCenter3` whose own centre is no vertex.
@@ -152,18 +118,10 @@ impl<'a> Layout<'a> {
         let classes = (!subdivided.is_empty()).then(|| Classes::of(subdivided));
         if level == self.domain.base_level {
             let exists = self.domain.window(self.grid.tiles().get(level, id).first());
-            return Sets {
-                exists,
-                classes,
-                inserted: Window::EMPTY,
-            };
+            return Sets { exists, classes, inserted: Window::EMPTY };
         }
         let (exists, inserted) = self.from_parent(level, id);
-        Sets {
-            exists,
-            classes,
-            inserted,
-        }
+        Sets { exists, classes, inserted }
     }
 
     /// What the subdivided hexagons one level coarser make exist in a tile:
@@ -172,10 +130,7 @@ impl<'a> Layout<'a> {
         let Some((parent, quadrant)) = self.grid.tiles().parent(level, id) else {
             return (Window::EMPTY, Window::EMPTY);
         };
-        let subdivided = self
-            .grid
-            .tiles()
-            .window(level - 1, parent, |t| t.subdivided);
+        let subdivided = self.grid.tiles().window(level - 1, parent, |t| t.subdivided);
         let exists = children(subdivided, quadrant);
         if !self.templates {
             return (exists, Window::EMPTY);
@@ -209,10 +164,7 @@ impl<'a> Layout<'a> {
             Some(classes) if self.templates => classes.moved3,
             _ => Window::EMPTY,
         };
-        let subdivided = sets
-            .classes
-            .as_ref()
-            .map_or(Window::EMPTY, |c| c.subdivided);
+        let subdivided = sets.classes.as_ref().map_or(Window::EMPTY, |c| c.subdivided);
         [0, 1].map(|i| {
             let second = Direction::new(i);
             let third = Direction::new(i + 1);
@@ -222,12 +174,7 @@ impl<'a> Layout<'a> {
             let (x, y, z) = corners(three);
             let all = (e & f & g & Window::with_margin(0)).without(x | y | z);
             let two = a & b | b & c | c & a;
-            Walk {
-                second,
-                third,
-                whole: all.without(two),
-                split: all & two.without(a & b & c),
-            }
+            Walk { second, third, whole: all.without(two), split: all & two.without(a & b & c) }
         })
     }
 }
@@ -259,10 +206,7 @@ pub(super) fn children(subdivided: Window, quadrant: usize) -> Window {
 /// fill the window of the tile's quarter: the quarter and two more on each
 /// side.
 fn corner_of(quadrant: usize) -> Hex {
-    Hex::new(
-        4 * (quadrant as i64 & 1) - 2,
-        4 * (quadrant as i64 >> 1) - 2,
-    )
+    Hex::new(4 * (quadrant as i64 & 1) - 2, 4 * (quadrant as i64 >> 1) - 2)
 }
 
 /// Makes all tiles exist that hold a leaf, an inserted point or a triangle.

@@ -109,12 +109,5 @@ pub fn extract(
     check(monitor)?;
     let triangles = triangles::fill(&layout);
     monitor.progress(Phase::Extract, total, total);
-    Ok(Dual {
-        mesh: TriMesh {
-            vertices,
-            triangles,
-        },
-        vertex_of_occupant,
-        domain,
-    })
+    Ok(Dual { mesh: TriMesh { vertices, triangles }, vertex_of_occupant, domain })
 }

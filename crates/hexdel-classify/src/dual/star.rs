@@ -39,9 +39,7 @@ pub(super) struct Star {
 impl Star {
     /// The star of the `MovedCenter3` at `at`; `None` for any other hexagon.
     pub(super) fn of(classes: &Classes, at: Hex) -> Option<Self> {
-        let middle = Direction::ALL
-            .into_iter()
-            .find(|d| classes.middle[d.index()].contains(at))?;
+        let middle = Direction::ALL.into_iter().find(|d| classes.middle[d.index()].contains(at))?;
         let is_middle = |d: Direction, at| classes.middle[d.index()].contains(at);
         Some(Self {
             middle,
@@ -85,9 +83,7 @@ pub(super) fn count(classes: &Classes, exists: Window) -> u32 {
 /// the tile's first hexagon.
 pub(super) fn inserted_at(layout: &Layout, level: u8, id: TileId, at: Hex) -> Offset {
     let tiles = layout.grid.tiles();
-    let (parent, _) = tiles
-        .parent(level, id)
-        .expect("points are inserted below the base level");
+    let (parent, _) = tiles.parent(level, id).expect("points are inserted below the base level");
     let classes = Classes::of(tiles.window(level - 1, parent, |t| t.subdivided));
     let first = tiles.get(level, id).first();
     let coarser = tiles.get(level - 1, parent).first();
@@ -98,10 +94,7 @@ pub(super) fn inserted_at(layout: &Layout, level: u8, id: TileId, at: Hex) -> Of
             let points = star_points(star.middle, star.before, star.after);
             let i = (0..3).find(|&i| star.middle.turned(5 + i).step() == fin - hex);
             let p = points[i.expect("the point lies on a fin")];
-            let scaled = Offset {
-                q: 2 * p.q,
-                r: 2 * p.r,
-            };
+            let scaled = Offset { q: 2 * p.q, r: 2 * p.r };
             return Offset::of(hex.scaled() - first) + scaled;
         }
     }
@@ -119,12 +112,7 @@ pub(super) trait Corners {
 }
 
 /// Emits the triangles of the star at `at`.
-pub(super) fn emit(
-    star: Star,
-    at: Hex,
-    corners: &impl Corners,
-    mut push: impl FnMut([VertexId; 3]),
-) {
+pub(super) fn emit(star: Star, at: Hex, corners: &impl Corners, mut push: impl FnMut([VertexId; 3])) {
     let d = |by: usize| star.middle.turned(by).step();
     let fins = [5, 0, 1].map(|by| at + d(by));
     let a = fins.map(|n| corners.finer(n.scaled()));
@@ -155,23 +143,13 @@ pub(super) fn emit(
     }
     let (g0, g2, top) = (corners.leaf(g0), corners.leaf(g2), corners.leaf(top));
     if star.single() {
-        for t in [
-            [p[0], p[1], p[2]],
-            [p[0], p[2], top],
-            [p[0], top, g0],
-            [p[2], g2, top],
-        ] {
+        for t in [[p[0], p[1], p[2]], [p[0], p[2], top], [p[0], top, g0], [p[2], g2, top]] {
             push(t);
         }
         return;
     }
     let c = corners.leaf(at);
-    for t in [
-        [c, p[0], p[1]],
-        [c, p[1], p[2]],
-        [c, p[2], g2],
-        [c, g2, top],
-    ] {
+    for t in [[c, p[0], p[1]], [c, p[1], p[2]], [c, p[2], g2], [c, g2, top]] {
         push(t);
     }
     if !star.before {

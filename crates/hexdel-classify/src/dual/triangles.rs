@@ -31,9 +31,7 @@ pub(super) fn fill(layout: &Layout) -> Vec<[VertexId; 3]> {
             let mut count = 0;
             fill_tile(layout, level, id, |t| {
                 count += 1;
-                *places
-                    .next()
-                    .expect("as many triangles are emitted as were counted") = t;
+                *places.next().expect("as many triangles are emitted as were counted") = t;
             });
             debug_assert_eq!(count, block.triangles, "{id:?} of level {level}");
         }
@@ -44,10 +42,7 @@ pub(super) fn fill(layout: &Layout) -> Vec<[VertexId; 3]> {
 fn fill_tile(layout: &Layout, level: u8, id: TileId, mut push: impl FnMut([VertexId; 3])) {
     let sets = layout.sets(level, id);
     let tile = OwnerTile { layout, level, id };
-    let subdivided = sets
-        .classes
-        .as_ref()
-        .map_or(Window::EMPTY, |c| c.subdivided);
+    let subdivided = sets.classes.as_ref().map_or(Window::EMPTY, |c| c.subdivided);
     for walk in layout.walks(&sets) {
         emit_whole(&tile, &walk, subdivided, &mut push);
         emit_split(&tile, &walk, subdivided, &mut push);
@@ -56,12 +51,7 @@ fn fill_tile(layout: &Layout, level: u8, id: TileId, mut push: impl FnMut([Verte
 }
 
 /// Lattice triangles with at most one subdivided corner.
-fn emit_whole(
-    tile: &OwnerTile,
-    walk: &Walk,
-    subdivided: Window,
-    push: &mut impl FnMut([VertexId; 3]),
-) {
+fn emit_whole(tile: &OwnerTile, walk: &Walk, subdivided: Window, push: &mut impl FnMut([VertexId; 3])) {
     for bit in ones(walk.whole.centre()) {
         let h = hexdel_grid::grid::hex_of(bit);
         let corners = [h, h.neighbour(walk.second), h.neighbour(walk.third)];
@@ -71,18 +61,11 @@ fn emit_whole(
 
 /// Lattice triangles with two subdivided corners, split at the hexagon joined
 /// between them.
-fn emit_split(
-    tile: &OwnerTile,
-    walk: &Walk,
-    subdivided: Window,
-    push: &mut impl FnMut([VertexId; 3]),
-) {
+fn emit_split(tile: &OwnerTile, walk: &Walk, subdivided: Window, push: &mut impl FnMut([VertexId; 3])) {
     for bit in ones(walk.split.centre()) {
         let at = hexdel_grid::grid::hex_of(bit);
         let corners = [at, at.neighbour(walk.second), at.neighbour(walk.third)];
-        let whole = (0..3)
-            .find(|&i| !subdivided.contains(corners[i]))
-            .expect("one corner is a leaf");
+        let whole = (0..3).find(|&i| !subdivided.contains(corners[i])).expect("one corner is a leaf");
         let [h, a, b] = [0, 1, 2].map(|i| corners[(whole + i) % 3]);
         let (leaf, joined) = (tile.leaf(h), tile.finer(a + b));
         push([leaf, tile.finer(a.scaled()), joined]);
@@ -112,20 +95,14 @@ impl OwnerTile<'_> {
     /// The vertex that stands for a corner of a lattice triangle.
     #[inline]
     fn corner(&self, at: Hex, subdivided: Window) -> VertexId {
-        if subdivided.contains(at) {
-            self.finer(at.scaled())
-        } else {
-            self.leaf(at)
-        }
+        if subdivided.contains(at) { self.finer(at.scaled()) } else { self.leaf(at) }
     }
 
     /// The tile that lies `at` hexagons from this one's first.
     #[inline]
     fn beside(&self, at: Hex) -> TileId {
         let tiles = self.layout.grid.tiles();
-        tiles
-            .beside(self.level, self.id, at.q >> 3, at.r >> 3)
-            .expect("corners of triangles lie in tiles")
+        tiles.beside(self.level, self.id, at.q >> 3, at.r >> 3).expect("corners of triangles lie in tiles")
     }
 }
 

@@ -74,11 +74,7 @@ impl Frame {
         let first = layout.grid.tiles().get(level, id).first();
         let lattice = layout.grid.lattice();
         let (x, y) = lattice.exact(level, first);
-        Self {
-            x,
-            y,
-            spacing: lattice.spacing(level),
-        }
+        Self { x, y, spacing: lattice.spacing(level) }
     }
 
     /// A point given relative to the tile's first hexagon.
@@ -125,10 +121,7 @@ fn shifted(layout: &Layout, level: u8, hex: Hex, shift: Offset) -> DVec2 {
 }
 
 fn vertex_at(layout: &Layout, level: u8, hex: Hex) -> VertexId {
-    let (id, bit) = layout
-        .grid
-        .tiles()
-        .find(level, hex)
-        .expect("an occupied hexagon and its ring lie in tiles");
+    let (id, bit) =
+        layout.grid.tiles().find(level, hex).expect("an occupied hexagon and its ring lie in tiles");
     layout.vertex(level, id, bit)
 }
