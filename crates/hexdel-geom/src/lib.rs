@@ -26,6 +26,7 @@ pub mod points;
 pub mod predicates;
 pub mod quality;
 
+mod double_double;
 mod incidence;
 mod scale;
 
