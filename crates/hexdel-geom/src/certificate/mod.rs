@@ -255,7 +255,7 @@ pub struct Certificate {
     pub not_finite: usize,
     /// Whether no edge is in `non_delaunay_edges`.
     pub delaunay: bool,
-    /// Edges between two counter-clockwise triangles where, in exact
+    /// Edges of exactly two triangles, both counter-clockwise, where, in exact
     /// arithmetic, the corner of one is strictly inside the circumcircle of
     /// the other.
     pub non_delaunay_edges: usize,
@@ -316,6 +316,11 @@ impl Certificate {
             && (self.disk || !self.disk_required)
             && (self.delaunay || !self.delaunay_required)
             && self.inputs_kept == self.inputs
+    }
+
+    /// Whether every edge keeps the lower bound on lengths, if there is one.
+    pub fn min_edge_holds(&self) -> bool {
+        self.short_triangles == 0
     }
 }
 

@@ -213,6 +213,30 @@ fn duplicate_triangle() {
     assert_eq!(c.violations.iter().filter(|v| named(v)).count(), 3);
 }
 
+/// Time must not be quadratic in the triangles at a vertex.
+#[test]
+fn a_crowded_vertex() {
+    let n = 200_000;
+    let spokes: Vec<DVec2> = (0..n)
+        .map(|i| libm::sincos(f64::from(i) * 3.0 / f64::from(n)))
+        .map(|(sin, cos)| DVec2::new(cos, sin))
+        .collect();
+    let vertices = std::iter::once(DVec2::ZERO).chain(spokes).collect();
+    let fan = (1..n as usize).map(|i| [0, i, i + 1].map(VertexId::new));
+    let mut m = TriMesh {
+        vertices,
+        triangles: fan.collect(),
+    };
+    let c = wide(&m);
+    assert!(c.manifold && c.disk && c.edges == 2 * n as usize - 1);
+    m.triangles.extend(vec![m.triangles[7]; n as usize]);
+    let c = wide(&m);
+    assert_eq!(
+        (c.repeated_edges, c.edges),
+        (3 * n as usize, 2 * n as usize - 1)
+    );
+}
+
 #[test]
 fn three_triangles_on_an_edge() {
     let m = mesh(
@@ -378,6 +402,7 @@ fn short_edges() {
     };
     assert_eq!(holds(1.0), (0, true));
     assert_eq!(holds(1.0 + 1e-9), (6, false));
+    assert_eq!(holds(f64::NAN), (6, false));
 }
 
 #[test]

@@ -77,16 +77,23 @@ impl Topology {
                 });
             }
         }
-        // Only in a tangle can two edges lead to the vertex from the same one.
-        let first = |i: usize| single || !fan.prev[..i].contains(&fan.prev[i]);
+        // Only in a tangle can several edges lead to the vertex from the same
+        // one.
+        let tangle = (!single).then(|| Tangle::new(fan));
         for (i, (&w, &j)) in fan.prev.iter().zip(&fan.successor).enumerate() {
             if j == NONE {
                 self.boundary.push([w, v as u32]);
             }
-            self.edges += usize::from((j == NONE || (v as u32) < w) && first(i));
+            let first = tangle.as_ref().is_none_or(|tangle| tangle.is_first(w, i));
+            self.edges += usize::from((j == NONE || (v as u32) < w) && first);
         }
         for quad in fan.upward_quads(v) {
-            self.edge(view, quad, cap);
+            if tangle
+                .as_ref()
+                .is_none_or(|tangle| tangle.is_simple(quad[2]))
+            {
+                self.edge(view, quad, cap);
+            }
         }
     }
 
@@ -118,6 +125,39 @@ impl Topology {
             .extend(part.violations.into_iter().take(room));
         self.boundary.extend(part.boundary);
         self
+    }
+}
+
+/// How often each neighbour occurs around a vertex whose triangles are no
+/// single fan. Sorted, as there may be any number of them.
+struct Tangle {
+    /// The `prev` of each triangle, with its position.
+    prev: Vec<(u32, usize)>,
+    /// All `next` and `prev`.
+    ends: Vec<u32>,
+}
+
+impl Tangle {
+    fn new(fan: &Fan) -> Self {
+        let mut prev: Vec<(u32, usize)> = fan.prev.iter().copied().zip(0..).collect();
+        let mut ends = [fan.prev.as_slice(), &fan.next].concat();
+        prev.sort_unstable();
+        ends.sort_unstable();
+        Self { prev, ends }
+    }
+
+    /// Whether triangle `i` is the first whose `prev` is `w`.
+    fn is_first(&self, w: u32, i: usize) -> bool {
+        self.prev[self.prev.partition_point(|&(u, _)| u < w)] == (w, i)
+    }
+
+    /// Whether the edge to `w` has two triangles and no more.
+    fn is_simple(&self, w: u32) -> bool {
+        let [below, through] = [
+            self.ends.partition_point(|&u| u < w),
+            self.ends.partition_point(|&u| u <= w),
+        ];
+        through - below == 2
     }
 }
 

@@ -75,7 +75,11 @@ impl Limits {
         };
         let low = request.bounds.min_deg() - ANGLE_TOLERANCE_DEG;
         let high = request.bounds.max_deg() + ANGLE_TOLERANCE_DEG;
-        let min_edge = request.min_edge.unwrap_or(0.0) * view.scale;
+        // No edge keeps a bound that is not a number.
+        let bound = request
+            .min_edge
+            .map_or(0.0, |e| if e.is_nan() { f64::INFINITY } else { e });
+        let min_edge = bound * view.scale;
         Self {
             bounds: request.bounds,
             max_cot: if low > 0.0 { cot(low) } else { f64::INFINITY },
