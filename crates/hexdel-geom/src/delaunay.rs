@@ -9,6 +9,13 @@
 //! would leave the bounds; there a vertex that may move is nudged by a few
 //! units in the last place instead.
 //!
+//! Nudging has a limit that no search overcomes. The angles around a vertex
+//! sum to 360 degrees however it moves: where four right angles of kites meet
+//! at every apex, as in a tiling by kites, the pairs opposite the hypotenuses
+//! sum to 180 degrees on average, and one can only get slack at the expense of
+//! another. Such a mesh is an error here, unless its coordinates happen to be
+//! exact or the bounds permit a flip.
+//!
 //! Coordinates are to be in the range of [`predicates`](crate::predicates);
 //! the angles of the mesh are left to the certificate.
 
@@ -123,13 +130,16 @@ pub fn restore_delaunay(
         incidence: &incidence,
         changed: FxHashMap::default(),
     };
+    let spoiling_moves = 1000 + queue.len();
+    let queue = queue.into();
     let mut repair = Repair {
         mesh,
         bounds,
         free,
         rings,
-        queue: queue.into(),
+        queue,
         report,
+        spoiling_moves,
     };
     for _ in 0..budget {
         let Some(ends) = repair.queue.pop_front() else {
@@ -215,6 +225,9 @@ struct Repair<'a, F> {
     /// Contains every edge that is not Delaunay.
     queue: VecDeque<[u32; 2]>,
     report: FlipReport,
+    /// Moves left that make other edges worse. The others bring the number of
+    /// edges that are not Delaunay down and need no limit.
+    spoiling_moves: usize,
 }
 
 impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
@@ -341,6 +354,10 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
                 }
             }
         }
+        self.spoiling_moves = match self.spoiling_moves.checked_sub(1) {
+            Some(left) => left,
+            None => return false,
+        };
         self.take(best)
     }
 

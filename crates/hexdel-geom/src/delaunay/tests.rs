@@ -201,3 +201,61 @@ proptest! {
         prop_assert!(report.flips >= report.found || report.found == 0 || report.flips > 0);
     }
 }
+
+/// Hexagons cut into kites from their centres, the kites along their axes.
+///
+/// Four right angles of kites meet at the midpoint of each edge. They sum to
+/// 360 degrees whatever moves, so on average the two right angles of a kite
+/// sum to 180: none of these hypotenuses can get slack but from the boundary.
+fn kite_tiling(n: i32, turn: f64, at: DVec2) -> TriMesh {
+    let (sin, cos) = libm::sincos(turn);
+    let mut mesh = TriMesh::default();
+    let mut ids = std::collections::BTreeMap::new();
+    let mut vertex = |mesh: &mut TriMesh, p: DVec2| {
+        let key = [(p.x * 1e6).round() as i64, (p.y * 1e6).round() as i64];
+        *ids.entry(key).or_insert_with(|| {
+            mesh.vertices
+                .push(DVec2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y) + at);
+            VertexId::new(mesh.vertices.len() - 1)
+        })
+    };
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        let (i, j) = (f64::from(i), f64::from(j));
+        let center = DVec2::new(2.0 * i + j, 3f64.sqrt() * j);
+        // Midpoints of edges and corners of the hexagon by turns.
+        let rim = |k: i32| {
+            let (sin, cos) = libm::sincos(f64::from(k % 12) * std::f64::consts::FRAC_PI_6);
+            center + DVec2::new(cos, sin) * if k % 2 == 0 { 1.0 } else { 2.0 / 3f64.sqrt() }
+        };
+        for k in 0..12 {
+            let triangle = [center, rim(k), rim(k + 1)].map(|p| vertex(&mut mesh, p));
+            mesh.triangles.push(triangle);
+        }
+    }
+    mesh
+}
+
+#[test]
+fn interlocking_kites_end_in_an_error() {
+    let bounds = AngleBounds::new(30.0, 90.0).unwrap();
+    for turn in 0..4 {
+        let mut m = kite_tiling(
+            12,
+            f64::from(turn) * 0.7,
+            DVec2::new(3.3, -7.1) * f64::from(turn),
+        );
+        let before = m.clone();
+        let result = restore_delaunay(&mut m, bounds, |v| v.index() % 7 != 0);
+        assert!(
+            matches!(result, Err(DelaunayError::Stuck { .. })),
+            "{result:?}"
+        );
+        assert_eq!(m.triangles, before.triangles);
+        for (v, (p, q)) in m.vertices.iter().zip(&before.vertices).enumerate() {
+            assert!(p == q || (v % 7 != 0 && p.distance(*q) < 1e-10));
+        }
+        // The same tiling is no obstacle where the bounds permit to flip.
+        let report = restore_delaunay(&mut m, wide(), |_| false).unwrap();
+        assert!(report.flips >= report.found);
+    }
+}
