@@ -8,10 +8,13 @@
 //! |---|---|
 //! | [`bounds`] | the angle interval a mesh promises |
 //! | [`mesh`] | [`TriMesh`]: vertices and counter-clockwise triangles |
+//! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
 
 pub mod bounds;
 pub mod mesh;
+pub mod pslg;
 
 pub use bounds::{AngleBounds, BoundsError};
 pub use glam::DVec2;
 pub use mesh::{TriMesh, TriangleId, VertexId};
+pub use pslg::{Pslg, PslgLayoutError, Region};
