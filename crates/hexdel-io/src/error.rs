@@ -84,7 +84,7 @@ pub enum ReadError {
     MissingSection {
         /// The file.
         file: String,
-        /// The last line of the file, 0 if it is empty.
+        /// The last row of the section before, 0 if there is none.
         line: u64,
         /// What the section would have held.
         section: &'static str,

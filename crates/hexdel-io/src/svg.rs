@@ -1,10 +1,12 @@
 //! Pictures of meshes as SVG: triangles coloured by their smallest angle.
 //!
-//! Triangles of one colour are one path, in hundredths of a pixel and relative
-//! steps, about 30 bytes each: a mesh of 100,000 triangles stays a file that
-//! viewers open. Line widths and dots shrink with the triangles. The legend is in
-//! [`legend`](crate::legend).
+//! Triangles of one colour and size are one path, in hundredths of a pixel and
+//! relative steps, about 30 bytes each: a mesh of 100,000 triangles stays a file
+//! that viewers open. Edges are the thinner the smaller the triangle, dots the
+//! smaller the more there are. The legend is in
+//! the module [`legend`].
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -43,11 +45,11 @@ pub(crate) fn write_svg(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
     text.pixels(height).text("\">\n");
     text.text("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
     if view.picture.fill_triangles {
-        filled_triangles(&mut text, view, &frame, &colouring)?;
+        triangles(&mut text, view, &frame, &colouring)?;
         overlay(&mut text, &view.picture, &frame)?;
     } else {
         overlay(&mut text, &view.picture, &frame)?;
-        outlined_triangles(&mut text, view, &frame)?;
+        triangles(&mut text, view, &frame, &colouring)?;
     }
     input_points(&mut text, view, &frame)?;
     legend.write(&mut text, frame.width + 2.0 * MARGIN);
@@ -154,35 +156,51 @@ fn shade_colour(shade: u8) -> Rgb {
     }
 }
 
-fn filled_triangles(
+/// A path for each size and shade, large triangles first so that the fine lines of
+/// small ones are on top.
+fn triangles(
     text: &mut TextWriter<'_>,
     view: &MeshView<'_>,
     frame: &Frame,
     colouring: &Colouring,
 ) -> io::Result<()> {
-    begin_triangles(text, view, frame);
-    text.text(if view.picture.edges {
-        " stroke=\"#000\">\n"
-    } else {
-        ">\n"
-    });
-    for shade in 0..=BELOW {
-        let mut of_shade = (0..colouring.shades.len())
-            .filter(|&t| colouring.shades[t] == shade)
-            .peekable();
-        if of_shade.peek().is_none() {
-            continue;
-        }
-        let colour = shade_colour(shade).hex();
-        text.text("<path fill=\"").text(&colour);
-        if !view.picture.edges {
-            // A seam of the background would show between neighbours.
-            text.text("\" stroke=\"").text(&colour);
+    let Picture {
+        fill_triangles: filled,
+        edges,
+        ..
+    } = view.picture;
+    if !filled && !edges {
+        return Ok(());
+    }
+    let places = |t| {
+        let corners = view.mesh.corners(TriangleId::new(t));
+        corners.map(|p| frame.place(p))
+    };
+    let styles: Vec<(u8, u8)> = (0..colouring.shades.len())
+        .map(|t| (size_class(places(t)), colouring.shades[t]))
+        .map(|(size, shade)| (size, if filled { shade } else { 0 }))
+        .collect();
+    let mut order: Vec<usize> = (0..styles.len()).collect();
+    order.sort_by_key(|&t| (Reverse(styles[t].0), styles[t].1));
+
+    text.text("<g id=\"triangles\" stroke-linejoin=\"round\"");
+    text.text(if filled { "" } else { " fill=\"none\"" });
+    text.text(if edges { " stroke=\"#000\">\n" } else { ">\n" });
+    for of_style in order.chunk_by(|&t, &u| styles[t] == styles[u]) {
+        let (size, shade) = styles[of_style[0]];
+        text.text("<path stroke-width=\"")
+            .hundredths(line_width(size));
+        if filled {
+            let colour = shade_colour(shade).hex();
+            text.text("\" fill=\"").text(&colour);
+            if !edges {
+                // A seam of the background would show between neighbours.
+                text.text("\" stroke=\"").text(&colour);
+            }
         }
         text.text("\" d=\"");
-        for t in of_shade {
-            let corners = view.mesh.corners(TriangleId::new(t));
-            ring(text, corners.map(|p| frame.place(p)));
+        for &t in of_style {
+            ring(text, places(t));
             text.breathe()?;
         }
         text.text("\"/>\n");
@@ -191,30 +209,22 @@ fn filled_triangles(
     Ok(())
 }
 
-fn outlined_triangles(
-    text: &mut TextWriter<'_>,
-    view: &MeshView<'_>,
-    frame: &Frame,
-) -> io::Result<()> {
-    if !view.picture.edges {
-        return Ok(());
-    }
-    begin_triangles(text, view, frame);
-    text.text(" fill=\"none\" stroke=\"#000\">\n<path d=\"");
-    for t in 0..view.mesh.triangles.len() {
-        let corners = view.mesh.corners(TriangleId::new(t));
-        ring(text, corners.map(|p| frame.place(p)));
-        text.breathe()?;
-    }
-    text.text("\"/>\n</g>\n");
-    Ok(())
+/// The binary logarithm of a triangle's size in hundredths of a pixel, where size
+/// is the side of a square twice as large. In integers, as a logarithm of floats
+/// would differ between platforms.
+fn size_class([a, b, c]: [[i64; 2]; 3]) -> u8 {
+    // Sizes of a third of a pixel and below, and of 20 pixels and above, are drawn
+    // alike.
+    const CLASSES: std::ops::RangeInclusive<u32> = 5..=11;
+    let ([ux, uy], [vx, vy]) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+    let twice_area = (ux * vy - uy * vx).unsigned_abs().max(1);
+    (twice_area.ilog2() / 2).clamp(*CLASSES.start(), *CLASSES.end()) as u8
 }
 
-/// Edges take up about a tenth of the area however many there are.
-fn begin_triangles(text: &mut TextWriter<'_>, view: &MeshView<'_>, frame: &Frame) {
-    let spacing = frame.spacing(view.mesh.triangles.len());
-    text.text("<g id=\"triangles\" stroke-linejoin=\"round\" stroke-width=\"");
-    text.pixels((0.04 * spacing).clamp(0.03, 0.8)).text("\"");
+/// The width of edges in hundredths of a pixel, a thirty-second of the size: edges
+/// take up about a tenth of the area in coarse and in fine parts of a mesh.
+fn line_width(size_class: u8) -> i64 {
+    1 << (size_class - 5)
 }
 
 /// A closed polygon; none if it is smaller than the resolution.
@@ -318,4 +328,26 @@ fn input_points(text: &mut TextWriter<'_>, view: &MeshView<'_>, frame: &Frame) -
     }
     text.text("</g>\n");
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_a_thirty_second_of_the_triangle() {
+        let right = |leg: i64| [[7, -9], [7 + leg, -9], [7, leg - 9]];
+        for (leg, width) in [
+            (1, 1),
+            (63, 1),
+            (64, 2),
+            (320, 8),
+            (2048, 64),
+            (1 << 30, 64),
+        ] {
+            assert_eq!(line_width(size_class(right(leg))), width, "{leg}");
+            let [a, b, c] = right(leg);
+            assert_eq!(line_width(size_class([a, c, b])), width, "{leg}");
+        }
+    }
 }

@@ -33,7 +33,7 @@ use crate::{mesh_ron, svg, triangle_out, vtu};
 /// # Complexity
 ///
 /// Linear in the size of the mesh; extra memory is a constant for `.node`, `.ele`,
-/// `.vtu` and `.ron`, and a byte per triangle for pictures.
+/// `.vtu` and `.ron`, and eleven bytes per triangle for pictures.
 pub fn write_mesh(path: impl AsRef<Path>, view: &MeshView<'_>) -> Result<(), WriteError> {
     let path = path.as_ref();
     let name = path.display().to_string();

@@ -228,8 +228,6 @@ fn words<T, const N: usize>(bytes: &[u8], from: fn([u8; N]) -> T) -> Vec<T> {
 #[test]
 fn vtu_arrays() {
     let mut mesh = squares(1);
-    mesh.vertices[3] = DVec2::new(1e308, -0.0);
-    mesh.vertices[3] = DVec2::new(1.0, 1.0);
     mesh.vertices[2].x = -0.0;
     let view = MeshView::new(&mesh).with_input_indices(&[Some(0), None, Some(u32::MAX), None]);
     let vtu = text(MeshFormat::Vtu, &view);
