@@ -29,16 +29,10 @@ pub enum BoundsError {
 impl AngleBounds {
     /// What the relocated dual keeps: `atan(5 / (3 sqrt 3))` = 43.8978.. to 90
     /// degrees (paper, section 5.4 and 6.1).
-    pub const EXTENDED: Self = Self {
-        min_deg: 43.897_886_248_013_98,
-        max_deg: 90.0,
-    };
+    pub const EXTENDED: Self = Self { min_deg: 43.897_886_248_013_98, max_deg: 90.0 };
 
     /// What the plain dual keeps: 30 to 120 degrees (paper, section 4.3).
-    pub const SIMPLE: Self = Self {
-        min_deg: 30.0,
-        max_deg: 120.0,
-    };
+    pub const SIMPLE: Self = Self { min_deg: 30.0, max_deg: 120.0 };
 
     /// Bounds of `min_deg` to `max_deg` degrees.
     ///

@@ -46,10 +46,7 @@ pub fn smallest_enclosing_circle(points: &[DVec2]) -> Option<Circle> {
     shuffle(&mut local);
     let circle = enclose(&mut local);
     let center = circle.center / inner / outer + first;
-    Some(Circle {
-        center,
-        radius: covering_radius(center, points, outer),
-    })
+    Some(Circle { center, radius: covering_radius(center, points, outer) })
 }
 
 /// The radius that reaches all points from a centre, rounded up.
@@ -58,10 +55,7 @@ fn covering_radius(center: DVec2, points: &[DVec2], outer: f64) -> f64 {
     let offsets: Vec<DVec2> = points.iter().map(|&p| p * outer - from).collect();
     // Squares of the offsets must not underflow.
     let inner = scale_to(max_abs(&offsets), 0);
-    let reach_sq = offsets
-        .iter()
-        .map(|&d| (d * inner).length_squared())
-        .fold(0.0, f64::max);
+    let reach_sq = offsets.iter().map(|&d| (d * inner).length_squared()).fold(0.0, f64::max);
     // Difference, squares, sum and root are off by less than 3 u, u = 2^-53.
     reach_sq.sqrt() * (1.0 + 2.0 * f64::EPSILON) / inner / outer
 }
@@ -70,9 +64,7 @@ fn covering_radius(center: DVec2, points: &[DVec2], outer: f64) -> f64 {
 fn shuffle(points: &mut [DVec2]) {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     for i in (1..points.len()).rev() {
-        state = state
-            .wrapping_mul(0x5851_f42d_4c95_7f2d)
-            .wrapping_add(0x1405_7b7e_f767_814f);
+        state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
         // The high half of a 64-bit congruential generator is its good half.
         let j = (u128::from(state >> 32) * (i as u128 + 1)) >> 32;
         points.swap(i, j as usize);
@@ -99,10 +91,7 @@ impl Disk {
 
     fn through_two(a: DVec2, b: DVec2) -> Self {
         let center = a.midpoint(b);
-        Self {
-            center,
-            radius_sq: center.distance_squared(a).max(center.distance_squared(b)),
-        }
+        Self { center, radius_sq: center.distance_squared(a).max(center.distance_squared(b)) }
     }
 
     /// The circle through three points; `None` if they are collinear.
@@ -112,19 +101,13 @@ impl Disk {
         let (uu, ww) = (u.length_squared(), w.length_squared());
         let offset = DVec2::new(w.y * uu - u.y * ww, u.x * ww - w.x * uu) / d;
         let center = a + offset;
-        let radius_sq = [a, b, c]
-            .map(|p| center.distance_squared(p))
-            .into_iter()
-            .fold(0.0, f64::max);
+        let radius_sq = [a, b, c].map(|p| center.distance_squared(p)).into_iter().fold(0.0, f64::max);
         (d != 0.0 && radius_sq.is_finite()).then_some(Self { center, radius_sq })
     }
 }
 
 fn enclose(points: &mut [DVec2]) -> Disk {
-    let mut disk = Disk {
-        center: points[0],
-        radius_sq: 0.0,
-    };
+    let mut disk = Disk { center: points[0], radius_sq: 0.0 };
     for i in 1..points.len() {
         if !disk.contains(points[i]) {
             disk = enclose_with(&points[..i], points[i]);
@@ -137,10 +120,7 @@ fn enclose(points: &mut [DVec2]) -> Disk {
 
 /// The smallest circle around `points` with `a` on it.
 fn enclose_with(points: &[DVec2], a: DVec2) -> Disk {
-    let mut disk = Disk {
-        center: a,
-        radius_sq: 0.0,
-    };
+    let mut disk = Disk { center: a, radius_sq: 0.0 };
     for (i, &b) in points.iter().enumerate() {
         if !disk.contains(b) {
             disk = enclose_with_two(&points[..i], a, b);
@@ -194,10 +174,7 @@ mod tests {
     fn brute_force(points: &[DVec2]) -> f64 {
         let mut best = f64::INFINITY;
         let mut offer = |disk: Disk| {
-            let reach = points
-                .iter()
-                .map(|&p| disk.center.distance(p))
-                .fold(0.0, f64::max);
+            let reach = points.iter().map(|&p| disk.center.distance(p)).fold(0.0, f64::max);
             best = best.min(reach);
         };
         for (i, &a) in points.iter().enumerate() {
@@ -224,25 +201,15 @@ mod tests {
     #[test]
     fn small_and_odd_inputs() {
         assert_eq!(smallest_enclosing_circle(&[]), None);
-        assert_eq!(
-            smallest_enclosing_circle(&[DVec2::ONE, DVec2::splat(f64::INFINITY)]),
-            None
-        );
+        assert_eq!(smallest_enclosing_circle(&[DVec2::ONE, DVec2::splat(f64::INFINITY)]), None);
         let one = smallest_enclosing_circle(&[DVec2::new(3.0, 4.0); 5]).unwrap();
-        assert_eq!(
-            one,
-            Circle {
-                center: DVec2::new(3.0, 4.0),
-                radius: 0.0
-            }
-        );
+        assert_eq!(one, Circle { center: DVec2::new(3.0, 4.0), radius: 0.0 });
     }
 
     #[test]
     fn collinear_points() {
-        let points: Vec<DVec2> = (0..=1000)
-            .map(|i| DVec2::new(0.1, 0.3) + DVec2::new(1.0, 0.7) * f64::from(i))
-            .collect();
+        let points: Vec<DVec2> =
+            (0..=1000).map(|i| DVec2::new(0.1, 0.3) + DVec2::new(1.0, 0.7) * f64::from(i)).collect();
         let circle = encloses(&points);
         assert!((circle.radius / DVec2::new(500.0, 350.0).length() - 1.0).abs() < 1e-12);
     }
@@ -252,9 +219,7 @@ mod tests {
         for scale in [1e-300, 1e-200, 1e200, 1e300] {
             let points = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|p| p * scale);
             let circle = smallest_enclosing_circle(&points).unwrap();
-            assert!(
-                circle.center.x.abs() <= 1e-12 * scale && circle.center.y.abs() <= 1e-12 * scale
-            );
+            assert!(circle.center.x.abs() <= 1e-12 * scale && circle.center.y.abs() <= 1e-12 * scale);
             assert!((circle.radius / scale - 1.0).abs() < 1e-12);
         }
     }

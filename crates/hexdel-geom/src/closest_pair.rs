@@ -45,16 +45,10 @@ pub fn closest_pair(points: &[DVec2]) -> Option<ClosestPair> {
         .iter()
         .enumerate()
         .filter(|(_, p)| p.is_finite())
-        .map(|(i, &p)| Point {
-            at: p * scale + DVec2::ZERO,
-            index: i as u32,
-        })
+        .map(|(i, &p)| Point { at: p * scale + DVec2::ZERO, index: i as u32 })
         .collect();
     sorted.par_sort_unstable_by(|p, q| {
-        p.at.x
-            .total_cmp(&q.at.x)
-            .then(p.at.y.total_cmp(&q.at.y))
-            .then(p.index.cmp(&q.index))
+        p.at.x.total_cmp(&q.at.x).then(p.at.y.total_cmp(&q.at.y)).then(p.index.cmp(&q.index))
     });
     // Coincident points would crowd a strip of width zero.
     let mut best = Best::NONE;
@@ -67,11 +61,7 @@ pub fn closest_pair(points: &[DVec2]) -> Option<ClosestPair> {
     }
     (best.a != best.b).then(|| {
         let (a, b) = (best.a as usize, best.b as usize);
-        ClosestPair {
-            a,
-            b,
-            distance: (points[a] * scale).distance(points[b] * scale) / scale,
-        }
+        ClosestPair { a, b, distance: (points[a] * scale).distance(points[b] * scale) / scale }
     })
 }
 
@@ -93,11 +83,7 @@ struct Best {
 }
 
 impl Best {
-    const NONE: Self = Self {
-        distance_sq: f64::INFINITY,
-        a: 0,
-        b: 0,
-    };
+    const NONE: Self = Self { distance_sq: f64::INFINITY, a: 0, b: 0 };
 
     #[inline]
     fn offer(&mut self, p: Point, q: Point) {
@@ -206,14 +192,7 @@ mod tests {
         assert_eq!(closest_pair(&[DVec2::ONE]), None);
         assert_eq!(closest_pair(&[DVec2::ONE, DVec2::splat(f64::NAN)]), None);
         let twice = closest_pair(&[DVec2::X, DVec2::Y, DVec2::ONE, DVec2::Y]).unwrap();
-        assert_eq!(
-            twice,
-            ClosestPair {
-                a: 1,
-                b: 3,
-                distance: 0.0
-            }
-        );
+        assert_eq!(twice, ClosestPair { a: 1, b: 3, distance: 0.0 });
         let zeros = closest_pair(&[DVec2::X, DVec2::new(-0.0, 0.0), DVec2::ZERO]).unwrap();
         assert_eq!((zeros.a, zeros.b), (1, 2));
     }
@@ -221,44 +200,23 @@ mod tests {
     #[test]
     fn lines_and_lattices_tie_to_the_first() {
         let vertical: Vec<DVec2> = (0..1000).map(|i| DVec2::new(2.0, f64::from(i))).collect();
-        assert_eq!(
-            closest_pair(&vertical),
-            Some(ClosestPair {
-                a: 0,
-                b: 1,
-                distance: 1.0
-            })
-        );
-        let lattice: Vec<DVec2> = (0..900)
-            .map(|i| DVec2::new(f64::from(i % 30), f64::from(i / 30)))
-            .collect();
+        assert_eq!(closest_pair(&vertical), Some(ClosestPair { a: 0, b: 1, distance: 1.0 }));
+        let lattice: Vec<DVec2> =
+            (0..900).map(|i| DVec2::new(f64::from(i % 30), f64::from(i / 30))).collect();
         agrees(&lattice);
         let same = vec![DVec2::ONE; 100_000];
-        assert_eq!(
-            closest_pair(&same),
-            Some(ClosestPair {
-                a: 0,
-                b: 1,
-                distance: 0.0
-            })
-        );
+        assert_eq!(closest_pair(&same), Some(ClosestPair { a: 0, b: 1, distance: 0.0 }));
     }
 
     #[test]
     fn extreme_magnitudes() {
         for scale in [1e-300, 1e-160, 1e160, 1e300] {
-            let points =
-                [DVec2::ZERO, DVec2::new(1.0, 1.0), DVec2::new(1.5, 1.0)].map(|p| p * scale);
+            let points = [DVec2::ZERO, DVec2::new(1.0, 1.0), DVec2::new(1.5, 1.0)].map(|p| p * scale);
             let pair = closest_pair(&points).unwrap();
             assert_eq!((pair.a, pair.b), (1, 2));
             assert!((pair.distance / scale - 0.5).abs() < 1e-12);
         }
-        let mixed = [
-            DVec2::ZERO,
-            DVec2::new(1e-250, 0.0),
-            DVec2::new(3e-251, 0.0),
-            DVec2::ONE,
-        ];
+        let mixed = [DVec2::ZERO, DVec2::new(1e-250, 0.0), DVec2::new(3e-251, 0.0), DVec2::ONE];
         assert_eq!(closest_pair(&mixed).map(|p| (p.a, p.b)), Some((0, 2)));
     }
 

@@ -106,41 +106,20 @@ pub fn restore_delaunay(
     free: impl Fn(VertexId) -> bool,
 ) -> Result<FlipReport, DelaunayError> {
     let n = mesh.vertices.len();
-    if let Some(t) = mesh
-        .triangles
-        .par_iter()
-        .position_first(|&t| !well_formed(t, n))
-    {
+    if let Some(t) = mesh.triangles.par_iter().position_first(|&t| !well_formed(t, n)) {
         let triangle = TriangleId::new(t);
-        return Err(DelaunayError::Malformed {
-            triangle,
-            corners: mesh.triangles[t],
-        });
+        return Err(DelaunayError::Malformed { triangle, corners: mesh.triangles[t] });
     }
     let incidence = Incidence::new(mesh);
     let queue = scan(mesh, &incidence)?;
-    let report = FlipReport {
-        found: queue.len(),
-        ..FlipReport::default()
-    };
+    let report = FlipReport { found: queue.len(), ..FlipReport::default() };
     // Lawson's flips alone could take a quadratic number; a mesh that needs
     // more than this is not nearly Delaunay.
     let budget = 64 * queue.len() + 64 * mesh.triangles.len().min(1 << 20);
-    let rings = Rings {
-        incidence: &incidence,
-        changed: FxHashMap::default(),
-    };
+    let rings = Rings { incidence: &incidence, changed: FxHashMap::default() };
     let spoiling_moves = 1000 + queue.len();
     let queue = queue.into();
-    let mut repair = Repair {
-        mesh,
-        bounds,
-        free,
-        rings,
-        queue,
-        report,
-        spoiling_moves,
-    };
+    let mut repair = Repair { mesh, bounds, free, rings, queue, report, spoiling_moves };
     for _ in 0..budget {
         let Some(ends) = repair.queue.pop_front() else {
             break;
@@ -167,10 +146,7 @@ fn scan(mesh: &TriMesh, incidence: &Incidence) -> Result<Vec<[u32; 2]>, Delaunay
                 fan.load(mesh, v, incidence.around(v));
                 if fan.is_tangled() {
                     let at = mesh.vertices[v];
-                    return Err(DelaunayError::Overlap {
-                        vertex: VertexId::new(v),
-                        at,
-                    });
+                    return Err(DelaunayError::Overlap { vertex: VertexId::new(v), at });
                 }
                 bad.extend(fan.upward_quads(v).filter_map(|quad| {
                     let [a, b, c, d] = quad.map(|v| mesh.vertices[v as usize]);
@@ -197,15 +173,11 @@ struct Rings<'a> {
 
 impl Rings<'_> {
     fn around(&self, v: u32) -> &[u32] {
-        self.changed
-            .get(&v)
-            .map_or_else(|| self.incidence.around(v as usize), Vec::as_slice)
+        self.changed.get(&v).map_or_else(|| self.incidence.around(v as usize), Vec::as_slice)
     }
 
     fn change(&mut self, v: u32) -> &mut Vec<u32> {
-        self.changed
-            .entry(v)
-            .or_insert_with(|| self.incidence.around(v as usize).to_vec())
+        self.changed.entry(v).or_insert_with(|| self.incidence.around(v as usize).to_vec())
     }
 }
 
@@ -240,21 +212,13 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
             self.flip(&quad);
             return Ok(());
         }
-        if self.nudge(&quad) {
-            Ok(())
-        } else {
-            Err(self.stuck(&quad))
-        }
+        if self.nudge(&quad) { Ok(()) } else { Err(self.stuck(&quad)) }
     }
 
     fn stuck(&self, quad: &Quad) -> DelaunayError {
         let [a, b, c, d] = quad.corners;
         let edge = [a, c].map(|v| VertexId::new(v as usize));
-        DelaunayError::Stuck {
-            edge,
-            ends: [self.at(a), self.at(c)],
-            opposite: [self.at(b), self.at(d)],
-        }
+        DelaunayError::Stuck { edge, ends: [self.at(a), self.at(c)], opposite: [self.at(b), self.at(d)] }
     }
 
     fn at(&self, v: u32) -> DVec2 {
@@ -285,10 +249,7 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
             }
         }
         let ((s, b), (t, d)) = (before?, after?);
-        Some(Quad {
-            corners: [a, b, c, d],
-            triangles: [s, t],
-        })
+        Some(Quad { corners: [a, b, c, d], triangles: [s, t] })
     }
 
     fn is_bad(&self, quad: &Quad) -> bool {
@@ -303,8 +264,7 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
     /// Whether a triangle is counter-clockwise with its angles in the bounds.
     fn fits(&self, triangle: [u32; 3]) -> bool {
         let corners @ [a, b, c] = triangle.map(|v| self.at(v));
-        orient2d(a, b, c) > 0.0
-            && !matches!(check_angles(corners, self.bounds), Fit::Outside { .. })
+        orient2d(a, b, c) > 0.0 && !matches!(check_angles(corners, self.bounds), Fit::Outside { .. })
     }
 
     fn flip(&mut self, quad: &Quad) {
@@ -325,15 +285,10 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
     /// the first of those that spoil the fewest, which are queued.
     fn nudge(&mut self, quad: &Quad) -> bool {
         let [a, b, c, d] = quad.corners;
-        let movable: Vec<u32> = [b, d, a, c]
-            .into_iter()
-            .filter(|&v| (self.free)(VertexId::new(v as usize)))
-            .collect();
+        let movable: Vec<u32> =
+            [b, d, a, c].into_iter().filter(|&v| (self.free)(VertexId::new(v as usize))).collect();
         let stars: Vec<Star> = movable.iter().map(|&v| self.star(v)).collect();
-        let step = quad
-            .corners
-            .iter()
-            .fold(0.0, |m, &v| self.at(v).abs().max_element().max(m));
+        let step = quad.corners.iter().fold(0.0, |m, &v| self.at(v).abs().max_element().max(m));
         let step = ulp(step);
         let mut best: Option<(Vec<[u32; 2]>, u32, DVec2)> = None;
         for offset in offsets() {
@@ -343,10 +298,7 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
                     continue;
                 };
                 let none = spoilt.is_empty();
-                if best
-                    .as_ref()
-                    .is_none_or(|(least, ..)| spoilt.len() < least.len())
-                {
+                if best.as_ref().is_none_or(|(least, ..)| spoilt.len() < least.len()) {
                     best = Some((spoilt, v, to));
                 }
                 if none {
@@ -390,11 +342,7 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
     /// bounds.
     fn spoilt_by(&mut self, quad: &Quad, v: u32, to: DVec2, star: &Star) -> Option<Vec<[u32; 2]>> {
         let from = std::mem::replace(&mut self.mesh.vertices[v as usize], to);
-        let good = !self.is_bad(quad)
-            && star
-                .triangles
-                .iter()
-                .all(|&(t, fitted)| self.keeps(t, fitted));
+        let good = !self.is_bad(quad) && star.triangles.iter().all(|&(t, fitted)| self.keeps(t, fitted));
         let spoilt = good.then(|| {
             star.edges
                 .iter()
@@ -410,11 +358,7 @@ impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
     /// has only to stay counter-clockwise.
     fn keeps(&self, triangle: [u32; 3], fitted: bool) -> bool {
         let [a, b, c] = triangle.map(|v| self.at(v));
-        if fitted {
-            self.fits(triangle)
-        } else {
-            orient2d(a, b, c) > 0.0
-        }
+        if fitted { self.fits(triangle) } else { orient2d(a, b, c) > 0.0 }
     }
 }
 
@@ -438,21 +382,9 @@ fn offsets() -> impl Iterator<Item = DVec2> {
             .filter(move |[x, y]| x.abs().max(y.abs()) == r)
     });
     let compass = [4, 6, 8, 12, 16].into_iter().flat_map(|r| {
-        [
-            [1, 0],
-            [1, 1],
-            [0, 1],
-            [-1, 1],
-            [-1, 0],
-            [-1, -1],
-            [0, -1],
-            [1, -1],
-        ]
-        .map(|[x, y]| [r * x, r * y])
+        [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]].map(|[x, y]| [r * x, r * y])
     });
-    square
-        .chain(compass)
-        .map(|[x, y]| DVec2::new(x.into(), y.into()))
+    square.chain(compass).map(|[x, y]| DVec2::new(x.into(), y.into()))
 }
 
 #[cfg(test)]

@@ -38,10 +38,7 @@ impl Double {
 
     #[inline]
     pub(crate) fn negated(self) -> Self {
-        Self {
-            hi: -self.hi,
-            lo: -self.lo,
-        }
+        Self { hi: -self.hi, lo: -self.lo }
     }
 }
 
@@ -51,20 +48,14 @@ fn two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
     let b_part = hi - a;
     let a_part = hi - b_part;
-    Double {
-        hi,
-        lo: (a - a_part) + (b - b_part),
-    }
+    Double { hi, lo: (a - a_part) + (b - b_part) }
 }
 
 /// `a + b`, exactly, if `a` is zero or has no smaller exponent (Dekker).
 #[inline]
 fn fast_two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
-    Double {
-        hi,
-        lo: b - (hi - a),
-    }
+    Double { hi, lo: b - (hi - a) }
 }
 
 /// `a * b`, exactly (Dekker).
@@ -72,10 +63,7 @@ fn fast_two_sum(a: f64, b: f64) -> Double {
 fn two_product(a: f64, b: f64) -> Double {
     let hi = a * b;
     let ((ah, al), (bh, bl)) = (halves(a), halves(b));
-    Double {
-        hi,
-        lo: al * bl - (((hi - ah * bh) - al * bh) - ah * bl),
-    }
+    Double { hi, lo: al * bl - (((hi - ah * bh) - al * bh) - ah * bl) }
 }
 
 /// Two parts of 26 bits each (Veltkamp).
@@ -94,24 +82,12 @@ mod tests {
     #[test]
     fn keeps_what_doubles_lose() {
         let d = Double::difference(1.0, 1e-20);
-        assert_eq!(
-            d,
-            Double {
-                hi: 1.0,
-                lo: -1e-20
-            }
-        );
+        assert_eq!(d, Double { hi: 1.0, lo: -1e-20 });
         // (1 - e)(1 + e) - 1 = -e^2 is lost in doubles.
         let e = 2f64.powi(-40);
         let product = Double::difference(1.0, e).times(Double::difference(1.0, -e));
         let rest = product.plus(Double { hi: -1.0, lo: 0.0 });
-        assert_eq!(
-            rest,
-            Double {
-                hi: -e * e,
-                lo: 0.0
-            }
-        );
+        assert_eq!(rest, Double { hi: -e * e, lo: 0.0 });
         assert_eq!(product.plus(product.negated()), Double { hi: 0.0, lo: 0.0 });
     }
 }

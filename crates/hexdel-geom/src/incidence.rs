@@ -100,17 +100,9 @@ impl Block {
             *end = total as u32;
             total += u64::from(count);
         }
-        debug_assert!(
-            u32::try_from(total).is_ok(),
-            "too many corners for one block"
-        );
+        debug_assert!(u32::try_from(total).is_ok(), "too many corners for one block");
         let mut triangles = vec![0_u32; total as usize];
-        for (t, &corners) in mesh
-            .triangles
-            .iter()
-            .enumerate()
-            .filter(|(_, t)| well_formed(**t, n))
-        {
+        for (t, &corners) in mesh.triangles.iter().enumerate().filter(|(_, t)| well_formed(**t, n)) {
             for v in corners {
                 if let Some(end) = ends.get_mut(v.index().wrapping_sub(first)) {
                     triangles[*end as usize] = t as u32;
@@ -167,8 +159,7 @@ impl Fan {
         }
         self.sorted.clear();
         if self.len() > SMALL_FAN {
-            self.sorted
-                .extend(self.next.iter().zip(0..).map(|(&n, i)| (n, i)));
+            self.sorted.extend(self.next.iter().zip(0..).map(|(&n, i)| (n, i)));
             self.sorted.sort_unstable();
         }
         self.successor.clear();
@@ -193,17 +184,10 @@ impl Fan {
     /// The first triangle whose `next` is `w`, or [`NONE`].
     fn leaving_to(&self, w: u32) -> u32 {
         if self.sorted.is_empty() {
-            return self
-                .next
-                .iter()
-                .position(|&n| n == w)
-                .map_or(NONE, |i| i as u32);
+            return self.next.iter().position(|&n| n == w).map_or(NONE, |i| i as u32);
         }
         let at = self.sorted.partition_point(|&(n, _)| n < w);
-        self.sorted
-            .get(at)
-            .filter(|s| s.0 == w)
-            .map_or(NONE, |s| s.1)
+        self.sorted.get(at).filter(|s| s.0 == w).map_or(NONE, |s| s.1)
     }
 
     /// Whether an earlier triangle has the same directed edge from the vertex.
@@ -226,11 +210,7 @@ impl Fan {
         }
         // From the start of the only path, or from anywhere on a cycle, all
         // triangles have to be reached.
-        let start = self
-            .predecessor
-            .iter()
-            .position(|&p| p == NONE)
-            .unwrap_or(0) as u32;
+        let start = self.predecessor.iter().position(|&p| p == NONE).unwrap_or(0) as u32;
         let (mut at, mut steps) = (start, 0);
         while let Some(&successor) = self.successor.get(at as usize) {
             (at, steps) = (successor, steps + 1);
@@ -246,13 +226,10 @@ impl Fan {
     /// counter-clockwise from `a = v`; the edge is `a c`.
     pub(crate) fn upward_quads(&self, v: usize) -> impl Iterator<Item = [u32; 4]> {
         let a = v as u32;
-        self.successor
-            .iter()
-            .enumerate()
-            .filter_map(move |(i, &j)| {
-                let c = self.prev[i];
-                (j != NONE && a < c).then(|| [a, self.next[i], c, self.prev[j as usize]])
-            })
+        self.successor.iter().enumerate().filter_map(move |(i, &j)| {
+            let c = self.prev[i];
+            (j != NONE && a < c).then(|| [a, self.next[i], c, self.prev[j as usize]])
+        })
     }
 }
 
@@ -290,17 +267,7 @@ mod tests {
         // Two paths, a path and a cycle, two cycles, a repeated edge.
         assert!(!single(5, &[[0, 1, 2], [0, 3, 4]]));
         assert!(!single(6, &[[0, 4, 5], [0, 1, 2], [0, 2, 3], [0, 3, 1]]));
-        assert!(!single(
-            7,
-            &[
-                [0, 1, 2],
-                [0, 2, 3],
-                [0, 3, 1],
-                [4, 5, 0],
-                [0, 5, 6],
-                [0, 6, 4]
-            ]
-        ));
+        assert!(!single(7, &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [4, 5, 0], [0, 5, 6], [0, 6, 4]]));
         assert!(!single(4, &[[0, 1, 2], [0, 1, 3]]));
     }
 

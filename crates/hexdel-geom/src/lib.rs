@@ -16,6 +16,7 @@
 //! | [`quality`] | angles and aspect ratio of one triangle |
 //! | [`certificate`] | [`certify`]: what a finished mesh keeps, checked from scratch |
 //! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
+//! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
 
 pub mod bounds;
 pub mod certificate;
@@ -26,6 +27,7 @@ pub mod mesh;
 pub mod monitor;
 pub mod points;
 pub mod predicates;
+pub mod pslg;
 pub mod quality;
 
 mod double_double;
@@ -44,3 +46,4 @@ pub use mesh::{TriMesh, TriangleId, VertexId};
 pub use monitor::{Cancelled, Monitor, Phase, Unwatched};
 pub use points::{PointSet, PointsError};
 pub use predicates::{incircle, orient2d};
+pub use pslg::{Pslg, PslgLayoutError, Region};

@@ -72,15 +72,10 @@ impl PointSet {
             return Err(PointsError::Empty);
         }
         if u32::try_from(points.len()).is_err() {
-            return Err(PointsError::TooMany {
-                count: points.len(),
-            });
+            return Err(PointsError::TooMany { count: points.len() });
         }
         if let Some(index) = points.iter().position(|p| !p.is_finite()) {
-            return Err(PointsError::NotFinite {
-                index,
-                point: points[index],
-            });
+            return Err(PointsError::NotFinite { index, point: points[index] });
         }
         let first = first_occurrences(points);
         let mut set = Self {
@@ -125,11 +120,8 @@ pub(crate) fn coordinate_key(p: DVec2) -> [u64; 2] {
 
 /// For each point the position of the first point equal to it.
 fn first_occurrences(points: &[DVec2]) -> Vec<u32> {
-    let mut keys: Vec<([u64; 2], u32)> = points
-        .iter()
-        .enumerate()
-        .map(|(i, &p)| (coordinate_key(p), i as u32))
-        .collect();
+    let mut keys: Vec<([u64; 2], u32)> =
+        points.iter().enumerate().map(|(i, &p)| (coordinate_key(p), i as u32)).collect();
     // Positions make the keys distinct, so an unstable sort has one outcome.
     keys.par_sort_unstable();
     let mut first = vec![0; points.len()];
@@ -152,13 +144,7 @@ mod tests {
         assert_eq!(PointSet::new(&[]), Err(PointsError::Empty));
         let bad = DVec2::new(f64::INFINITY, 3.0);
         let err = PointSet::new(&[DVec2::ZERO, bad]).unwrap_err();
-        assert_eq!(
-            err,
-            PointsError::NotFinite {
-                index: 1,
-                point: bad
-            }
-        );
+        assert_eq!(err, PointsError::NotFinite { index: 1, point: bad });
         assert_eq!(err.to_string(), "point 1 at (inf, 3) is not finite");
         assert!(PointSet::new(&[DVec2::new(0.0, f64::NAN)]).is_err());
     }
@@ -167,10 +153,7 @@ mod tests {
     fn zero_has_one_sign() {
         let set = PointSet::new(&[DVec2::new(-0.0, 1.0), DVec2::new(0.0, 1.0)]).unwrap();
         assert_eq!(set.sites().len(), 1);
-        assert!(
-            set.sites()[0].x.is_sign_negative(),
-            "the first occurrence as given"
-        );
+        assert!(set.sites()[0].x.is_sign_negative(), "the first occurrence as given");
     }
 
     proptest! {

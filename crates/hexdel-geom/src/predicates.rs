@@ -91,11 +91,7 @@ fn decided_by_angles([a, b, c, d]: [DVec2; 4]) -> Option<bool> {
     if at_b.is_exactly_right() && at_d.is_exactly_right() {
         return Some(true);
     }
-    let sum = at_b
-        .cross
-        .times(at_d.dot)
-        .plus(at_b.dot.times(at_d.cross))
-        .hi;
+    let sum = at_b.cross.times(at_d.dot).plus(at_b.dot.times(at_d.cross)).hi;
     let magnitude = at_b.cross_terms * at_d.dot_terms + at_b.dot_terms * at_d.cross_terms;
     // 2^4 (2^-52)^2 = 2^-100
     let error = 16.0 * f64::EPSILON * f64::EPSILON * magnitude;
@@ -118,8 +114,7 @@ struct Corner {
 impl Corner {
     fn new(origin: DVec2, to: DVec2, and: DVec2) -> Self {
         let [ux, uy] = [(to.x, origin.x), (to.y, origin.y)].map(|(p, q)| Double::difference(p, q));
-        let [wx, wy] =
-            [(and.x, origin.x), (and.y, origin.y)].map(|(p, q)| Double::difference(p, q));
+        let [wx, wy] = [(and.x, origin.x), (and.y, origin.y)].map(|(p, q)| Double::difference(p, q));
         let (left, right) = (ux.times(wy), uy.times(wx));
         let (x, y) = (ux.times(wx), uy.times(wy));
         Self {
@@ -173,12 +168,7 @@ mod tests {
         assert!(incircle(a, b, c, DVec2::new(0.0, 1.0_f64.next_down())) > 0.0);
         assert!(incircle(a, b, c, DVec2::new(0.0, 1.0_f64.next_up())) < 0.0);
         assert!(locally_delaunay(a, b, c, DVec2::Y));
-        assert!(!locally_delaunay(
-            a,
-            b,
-            c,
-            DVec2::new(0.0, 1.0_f64.next_down())
-        ));
+        assert!(!locally_delaunay(a, b, c, DVec2::new(0.0, 1.0_f64.next_down())));
     }
 
     proptest! {
@@ -217,9 +207,6 @@ mod tests {
     fn not_finite_does_not_panic() {
         let nan = DVec2::splat(f64::NAN);
         let inf = DVec2::splat(f64::INFINITY);
-        let _ = (
-            orient2d(nan, inf, DVec2::X),
-            incircle(DVec2::X, nan, inf, DVec2::Y),
-        );
+        let _ = (orient2d(nan, inf, DVec2::X), incircle(DVec2::X, nan, inf, DVec2::Y));
     }
 }

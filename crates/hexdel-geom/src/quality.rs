@@ -22,11 +22,7 @@ use glam::DVec2;
 /// ```
 pub fn angles_rad(corners: [DVec2; 3]) -> [f64; 3] {
     let [a, b, c] = corners;
-    [
-        angle(b - a, c - a),
-        angle(c - b, a - b),
-        angle(a - c, b - c),
-    ]
+    [angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)]
 }
 
 /// The angles at the three corners, degrees. Signed as [`angles_rad`].
@@ -43,10 +39,7 @@ pub fn angles_deg(corners: [DVec2; 3]) -> [f64; 3] {
 pub fn aspect_ratio(corners: [DVec2; 3]) -> f64 {
     let [a, b, c] = corners;
     let sides = [b - a, c - b, a - c];
-    let longest = sides
-        .iter()
-        .flat_map(|s| [s.x.abs(), s.y.abs()])
-        .fold(0.0, f64::max);
+    let longest = sides.iter().flat_map(|s| [s.x.abs(), s.y.abs()]).fold(0.0, f64::max);
     let [ab, bc, ca] = sides.map(|s| s / longest);
     let ratio = aspect_of([ab, bc, ca].map(DVec2::length), ab.perp_dot(-ca));
     // Coincident corners are 0 / 0.
@@ -101,10 +94,7 @@ mod tests {
 
     #[test]
     fn degenerate_is_infinite() {
-        assert_eq!(
-            aspect_ratio([DVec2::ZERO, DVec2::X, DVec2::X * 3.0]),
-            f64::INFINITY
-        );
+        assert_eq!(aspect_ratio([DVec2::ZERO, DVec2::X, DVec2::X * 3.0]), f64::INFINITY);
         assert_eq!(aspect_ratio([DVec2::X; 3]), f64::INFINITY);
         let tiny = [DVec2::ZERO, DVec2::X, DVec2::Y].map(|p| p * 1e-200);
         assert!((aspect_ratio(tiny) - 1.207_106_781_186_547_5).abs() < 1e-12);

@@ -8,11 +8,7 @@ use glam::DVec2;
 
 /// Magnitude of the largest finite coordinate, 0 if there is none.
 pub(crate) fn max_abs(points: &[DVec2]) -> f64 {
-    points
-        .iter()
-        .flat_map(|p| [p.x.abs(), p.y.abs()])
-        .filter(|c| c.is_finite())
-        .fold(0.0, f64::max)
+    points.iter().flat_map(|p| [p.x.abs(), p.y.abs()]).filter(|c| c.is_finite()).fold(0.0, f64::max)
 }
 
 /// `2^exponent`; the exponent is clamped to the normal range, -1022 to 1023.
@@ -33,11 +29,7 @@ pub(crate) fn scale_to(max_abs: f64, target: i32) -> f64 {
 /// The gap between the magnitude of `x` and the next larger double.
 pub(crate) fn ulp(x: f64) -> f64 {
     let x = x.abs();
-    if x == f64::MAX {
-        x - x.next_down()
-    } else {
-        x.next_up() - x
-    }
+    if x == f64::MAX { x - x.next_down() } else { x.next_up() - x }
 }
 
 #[cfg(test)]
@@ -46,13 +38,7 @@ mod tests {
 
     #[test]
     fn scales_reach_the_target() {
-        for (m, target) in [
-            (1.0, 0),
-            (3.5e300, 0),
-            (1e-300, 500),
-            (5e-324, 0),
-            (f64::MAX, 500),
-        ] {
+        for (m, target) in [(1.0, 0), (3.5e300, 0), (1e-300, 500), (5e-324, 0), (f64::MAX, 500)] {
             let scaled: f64 = m * scale_to(m, target);
             if m > 1e-290 {
                 assert!(scaled >= power_of_two(target) && scaled < power_of_two(target + 1));

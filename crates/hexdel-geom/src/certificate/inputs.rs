@@ -19,10 +19,7 @@ pub(super) struct Inputs {
 }
 
 pub(super) fn check(mesh: &TriMesh, inputs: &[DVec2], cap: usize) -> Inputs {
-    let mut sum = Inputs {
-        count: inputs.len(),
-        ..Inputs::default()
-    };
+    let mut sum = Inputs { count: inputs.len(), ..Inputs::default() };
     if inputs.is_empty() {
         return sum;
     }
@@ -37,16 +34,10 @@ pub(super) fn check(mesh: &TriMesh, inputs: &[DVec2], cap: usize) -> Inputs {
         is_vertex[position] = true;
     }
     for (input, &at) in inputs.iter().enumerate() {
-        if wanted
-            .position(at)
-            .is_some_and(|position| is_vertex[position])
-        {
+        if wanted.position(at).is_some_and(|position| is_vertex[position]) {
             sum.kept += 1;
         } else {
-            note(&mut sum.violations, cap, || Violation::InputMissing {
-                input,
-                at,
-            });
+            note(&mut sum.violations, cap, || Violation::InputMissing { input, at });
         }
     }
     sum
@@ -69,11 +60,7 @@ impl Wanted {
         keys.dedup();
         // 16 to 32 bits per key let one vertex in 16 or fewer through.
         let log = (keys.len().ilog2() + 5).max(6);
-        let mut wanted = Self {
-            seen: vec![0; 1 << (log - 6)],
-            shift: 64 - log,
-            keys,
-        };
+        let mut wanted = Self { seen: vec![0; 1 << (log - 6)], shift: 64 - log, keys };
         for i in 0..wanted.keys.len() {
             let bit = wanted.bit(wanted.keys[i]);
             wanted.seen[bit >> 6] |= 1 << (bit & 63);
@@ -95,9 +82,7 @@ impl Wanted {
     /// low ones, so both words are folded by a product of their own.
     fn bit(&self, [x, y]: [u64; 2]) -> usize {
         let hash = (x ^ (x >> 32)).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-            ^ (y ^ (y >> 29))
-                .wrapping_mul(0xc2b2_ae3d_27d4_eb4f)
-                .rotate_left(31);
+            ^ (y ^ (y >> 29)).wrapping_mul(0xc2b2_ae3d_27d4_eb4f).rotate_left(31);
         (hash.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> self.shift) as usize
     }
 }

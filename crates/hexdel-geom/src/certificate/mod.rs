@@ -216,10 +216,7 @@ pub enum Violation {
 /// without a finite triangle are 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is a finding of its own"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a finding of its own")]
 pub struct Certificate {
     /// Number of vertices, used or not.
     pub vertices: usize,
@@ -418,10 +415,7 @@ impl<'a> View<'a> {
         // for meshes that need it. 2^60 to the fourth power is far from both
         // ends of the range.
         let fit = max == 0.0 || (2f64.powi(-60)..2f64.powi(60)).contains(&max);
-        Self {
-            mesh,
-            scale: if fit { 1.0 } else { scale_to(max, 0) },
-        }
+        Self { mesh, scale: if fit { 1.0 } else { scale_to(max, 0) } }
     }
 
     /// The scaled position of vertex `v`.

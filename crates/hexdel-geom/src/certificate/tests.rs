@@ -13,13 +13,7 @@ fn mesh(vertices: &[[f64; 2]], triangles: &[[usize; 3]]) -> TriMesh {
 }
 
 fn wide(mesh: &TriMesh) -> Certificate {
-    certify(
-        mesh,
-        &CertifyOptions {
-            bounds: WIDE(),
-            ..CertifyOptions::default()
-        },
-    )
+    certify(mesh, &CertifyOptions { bounds: WIDE(), ..CertifyOptions::default() })
 }
 
 /// Two triangles of the unit square and one more to the right.
@@ -31,14 +25,7 @@ fn sound() -> TriMesh {
 /// A hexagon of equilateral triangles around vertex 0.
 fn hexagon() -> TriMesh {
     let h = 0.75_f64.sqrt();
-    let ring = [
-        [1.0, 0.0],
-        [0.5, h],
-        [-0.5, h],
-        [-1.0, 0.0],
-        [-0.5, -h],
-        [0.5, -h],
-    ];
+    let ring = [[1.0, 0.0], [0.5, h], [-0.5, h], [-1.0, 0.0], [-0.5, -h], [0.5, -h]];
     let vertices: Vec<_> = std::iter::once([0.0, 0.0]).chain(ring).collect();
     let triangles: Vec<_> = (0..6).map(|i| [0, 1 + i, 1 + (i + 1) % 6]).collect();
     mesh(&vertices, &triangles)
@@ -48,10 +35,7 @@ fn spade_mesh(points: &[DVec2]) -> TriMesh {
     let points = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let delaunay = DelaunayTriangulation::<Point2<f64>>::bulk_load(points).unwrap();
     TriMesh {
-        vertices: delaunay
-            .vertices()
-            .map(|v| DVec2::new(v.position().x, v.position().y))
-            .collect(),
+        vertices: delaunay.vertices().map(|v| DVec2::new(v.position().x, v.position().y)).collect(),
         triangles: delaunay
             .inner_faces()
             .map(|f| f.vertices().map(|v| VertexId::new(v.fix().index())))
@@ -64,10 +48,7 @@ fn a_sound_mesh_holds() {
     let c = wide(&sound());
     assert!(c.holds(), "{c:?}");
     assert_eq!((c.vertices, c.triangles, c.edges), (5, 3, 7));
-    assert_eq!(
-        (c.boundary_edges, c.boundary_loops, c.euler_characteristic),
-        (5, 1, 1)
-    );
+    assert_eq!((c.boundary_edges, c.boundary_loops, c.euler_characteristic), (5, 1, 1));
     assert_eq!((c.min_angle_deg, c.max_angle_deg), (45.0, 90.0));
     assert!((c.shortest_edge - 0.8125_f64.sqrt()).abs() < 1e-15);
     assert!((c.max_aspect_ratio - 1.207_106_781_186_547_5).abs() < 1e-14);
@@ -91,17 +72,8 @@ fn survives_json() {
 fn an_empty_mesh_is_no_disk() {
     let c = wide(&TriMesh::default());
     assert!(!c.holds() && !c.disk && c.manifold && c.delaunay);
-    assert_eq!(
-        (c.min_angle_deg, c.max_angle_deg, c.shortest_edge),
-        (0.0, 0.0, 0.0)
-    );
-    let c = certify(
-        &TriMesh::default(),
-        &CertifyOptions {
-            require_disk: false,
-            ..Default::default()
-        },
-    );
+    assert_eq!((c.min_angle_deg, c.max_angle_deg, c.shortest_edge), (0.0, 0.0, 0.0));
+    let c = certify(&TriMesh::default(), &CertifyOptions { require_disk: false, ..Default::default() });
     assert!(c.holds());
 }
 
@@ -111,30 +83,12 @@ fn angles_out_of_bounds() {
     let c = certify(&m, &CertifyOptions::default());
     assert_eq!((c.out_of_bounds, c.rounding_limited), (1, 0));
     // 95 degrees at corner 2 is 5 too many, 36.9 at corner 1 is 7 too few.
-    let [
-        Violation::AngleBelow {
-            corner: 1,
-            angle_deg,
-            ..
-        },
-    ] = c.violations[..]
-    else {
-        panic!("{c:?}")
-    };
+    let [Violation::AngleBelow { corner: 1, angle_deg, .. }] = c.violations[..] else { panic!("{c:?}") };
     assert!((angle_deg - 36.869_897_645_844_02).abs() < 1e-12 && c.min_angle_deg == angle_deg);
     assert!(!c.holds());
     let above = AngleBounds::new(30.0, 90.0).unwrap();
-    let c = certify(
-        &m,
-        &CertifyOptions {
-            bounds: above,
-            ..Default::default()
-        },
-    );
-    assert!(matches!(
-        c.violations[..],
-        [Violation::AngleAbove { corner: 2, .. }]
-    ));
+    let c = certify(&m, &CertifyOptions { bounds: above, ..Default::default() });
+    assert!(matches!(c.violations[..], [Violation::AngleAbove { corner: 2, .. }]));
 }
 
 #[test]
@@ -142,10 +96,7 @@ fn tolerance_and_rounding() {
     // The angle at the origin is 90 degrees and `past` times the tolerance.
     let tilted = |past: f64, at: f64, size: f64| {
         let lean = size * (past * ANGLE_TOLERANCE_DEG).to_radians();
-        let m = mesh(
-            &[[at, at], [at + size, at], [at - lean, at + size]],
-            &[[0, 1, 2]],
-        );
+        let m = mesh(&[[at, at], [at + size, at], [at - lean, at + size]], &[[0, 1, 2]]);
         let c = certify(&m, &CertifyOptions::default());
         (c.out_of_bounds, c.rounding_limited, c.holds())
     };
@@ -184,18 +135,12 @@ fn flipped_and_degenerate_triangles() {
     m.triangles[2].swap(1, 2);
     let c = wide(&m);
     assert_eq!(c.not_counter_clockwise, 1);
-    assert!(matches!(
-        c.violations[0],
-        Violation::NotCounterClockwise { .. }
-    ));
+    assert!(matches!(c.violations[0], Violation::NotCounterClockwise { .. }));
     assert!(c.repeated_edges > 0 && !c.manifold && !c.holds());
     assert!(c.min_angle_deg < -59.0);
     let flat = mesh(&[[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]], &[[0, 1, 2]]);
     let exactly = orientation(&flat);
-    assert_eq!(
-        wide(&flat).not_counter_clockwise,
-        usize::from(exactly <= 0.0)
-    );
+    assert_eq!(wide(&flat).not_counter_clockwise, usize::from(exactly <= 0.0));
 }
 
 fn orientation(m: &TriMesh) -> f64 {
@@ -209,7 +154,8 @@ fn duplicate_triangle() {
     let c = wide(&m);
     assert_eq!((c.repeated_edges, c.edges), (3, 7));
     assert!(!c.manifold && !c.holds());
-    let named = |v: &Violation| matches!(v, Violation::RepeatedEdge { triangle, .. } if triangle.index() == 3);
+    let named =
+        |v: &Violation| matches!(v, Violation::RepeatedEdge { triangle, .. } if triangle.index() == 3);
     assert_eq!(c.violations.iter().filter(|v| named(v)).count(), 3);
 }
 
@@ -223,18 +169,12 @@ fn a_crowded_vertex() {
         .collect();
     let vertices = std::iter::once(DVec2::ZERO).chain(spokes).collect();
     let fan = (1..n as usize).map(|i| [0, i, i + 1].map(VertexId::new));
-    let mut m = TriMesh {
-        vertices,
-        triangles: fan.collect(),
-    };
+    let mut m = TriMesh { vertices, triangles: fan.collect() };
     let c = wide(&m);
     assert!(c.manifold && c.disk && c.edges == 2 * n as usize - 1);
     m.triangles.extend(vec![m.triangles[7]; n as usize]);
     let c = wide(&m);
-    assert_eq!(
-        (c.repeated_edges, c.edges),
-        (3 * n as usize, 2 * n as usize - 1)
-    );
+    assert_eq!((c.repeated_edges, c.edges), (3 * n as usize, 2 * n as usize - 1));
 }
 
 #[test]
@@ -270,47 +210,21 @@ fn hole_and_two_components() {
 
     let mut two = hexagon();
     let n = two.vertices.len();
-    two.vertices
-        .extend(hexagon().vertices.iter().map(|p| *p + DVec2::X * 9.0));
-    two.triangles.extend(
-        hexagon()
-            .triangles
-            .iter()
-            .map(|t| t.map(|v| VertexId::new(v.index() + n))),
-    );
+    two.vertices.extend(hexagon().vertices.iter().map(|p| *p + DVec2::X * 9.0));
+    two.triangles.extend(hexagon().triangles.iter().map(|t| t.map(|v| VertexId::new(v.index() + n))));
     let c = wide(&two);
     assert!(c.manifold && !c.disk);
     assert_eq!((c.boundary_loops, c.euler_characteristic), (2, 2));
-    let c = certify(
-        &two,
-        &CertifyOptions {
-            require_disk: false,
-            ..Default::default()
-        },
-    );
+    let c = certify(&two, &CertifyOptions { require_disk: false, ..Default::default() });
     assert!(c.holds());
 }
 
 #[test]
 fn bow_tie() {
-    let m = mesh(
-        &[
-            [0.0, 0.0],
-            [1.0, 0.0],
-            [1.0, 1.0],
-            [-1.0, 0.0],
-            [-1.0, -1.0],
-        ],
-        &[[0, 1, 2], [0, 3, 4]],
-    );
+    let m = mesh(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [-1.0, 0.0], [-1.0, -1.0]], &[[0, 1, 2], [0, 3, 4]]);
     let c = wide(&m);
-    assert_eq!(
-        (c.branching_vertices, c.repeated_edges, c.boundary_loops),
-        (1, 0, 1)
-    );
-    assert!(
-        matches!(c.violations[..], [Violation::BranchingVertex { vertex, .. }] if vertex.index() == 0)
-    );
+    assert_eq!((c.branching_vertices, c.repeated_edges, c.boundary_loops), (1, 0, 1));
+    assert!(matches!(c.violations[..], [Violation::BranchingVertex { vertex, .. }] if vertex.index() == 0));
     assert!(!c.manifold && !c.holds());
 }
 
@@ -330,48 +244,23 @@ fn t_junction() {
 #[test]
 fn missing_inputs_and_unused_vertices() {
     let mut m = sound();
-    let inputs = [
-        DVec2::new(-0.0, 1.0),
-        DVec2::new(1.0_f64.next_up(), 0.0),
-        DVec2::ONE,
-        DVec2::ONE,
-    ];
-    let request = CertifyOptions {
-        bounds: WIDE(),
-        inputs: Some(&inputs),
-        ..Default::default()
-    };
+    let inputs = [DVec2::new(-0.0, 1.0), DVec2::new(1.0_f64.next_up(), 0.0), DVec2::ONE, DVec2::ONE];
+    let request = CertifyOptions { bounds: WIDE(), inputs: Some(&inputs), ..Default::default() };
     let c = certify(&m, &request);
     assert_eq!((c.inputs, c.inputs_kept), (4, 3));
-    assert_eq!(
-        c.violations,
-        [Violation::InputMissing {
-            input: 1,
-            at: inputs[1]
-        }]
-    );
+    assert_eq!(c.violations, [Violation::InputMissing { input: 1, at: inputs[1] }]);
     assert!(!c.holds());
     m.vertices.push(DVec2::splat(3.0));
     let c = wide(&m);
-    assert_eq!(
-        c.violations,
-        [Violation::UnusedVertex {
-            vertex: VertexId::new(5)
-        }]
-    );
+    assert_eq!(c.violations, [Violation::UnusedVertex { vertex: VertexId::new(5) }]);
     assert!(!c.manifold && !c.holds() && c.euler_characteristic == 1);
 }
 
 #[test]
 fn bad_indices_and_coordinates() {
     let mut m = sound();
-    m.triangles.push([
-        VertexId::new(1),
-        VertexId::new(2),
-        VertexId::new(u32::MAX as usize),
-    ]);
-    m.triangles
-        .push([VertexId::new(3), VertexId::new(0), VertexId::new(3)]);
+    m.triangles.push([VertexId::new(1), VertexId::new(2), VertexId::new(u32::MAX as usize)]);
+    m.triangles.push([VertexId::new(3), VertexId::new(0), VertexId::new(3)]);
     m.vertices[4] = DVec2::new(f64::NEG_INFINITY, 0.0);
     let c = wide(&m);
     assert_eq!((c.malformed, c.not_finite), (2, 1));
@@ -381,23 +270,14 @@ fn bad_indices_and_coordinates() {
         Violation::RepeatedCorner { .. },
     ] if vertex.index() == 4));
     assert!(!c.holds());
-    let lone = TriMesh {
-        vertices: Vec::new(),
-        triangles: m.triangles,
-    };
+    let lone = TriMesh { vertices: Vec::new(), triangles: m.triangles };
     assert_eq!(wide(&lone).malformed, 5);
 }
 
 #[test]
 fn short_edges() {
     let holds = |min_edge: f64| {
-        let c = certify(
-            &hexagon(),
-            &CertifyOptions {
-                min_edge: Some(min_edge),
-                ..Default::default()
-            },
-        );
+        let c = certify(&hexagon(), &CertifyOptions { min_edge: Some(min_edge), ..Default::default() });
         (c.short_triangles, c.holds())
     };
     assert_eq!(holds(1.0), (0, true));
@@ -436,40 +316,23 @@ fn the_list_is_capped_and_the_counts_are_not() {
     let m = mesh(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], &[[0, 2, 1]; 300]);
     let c = wide(&m);
     assert_eq!((c.not_counter_clockwise, c.violations.len()), (300, 100));
-    let c = certify(
-        &m,
-        &CertifyOptions {
-            max_violations: 0,
-            ..Default::default()
-        },
-    );
+    let c = certify(&m, &CertifyOptions { max_violations: 0, ..Default::default() });
     assert_eq!((c.not_counter_clockwise, c.violations.len()), (300, 0));
 }
 
 #[test]
 fn threads_make_no_difference() {
     let points: Vec<DVec2> = (0..20_000)
-        .map(|i| {
-            DVec2::new(
-                libm::sin(f64::from(i) * 12.9898) * 437.0 % 1.0,
-                f64::from(i) * 0.618_034 % 1.0,
-            )
-        })
+        .map(|i| DVec2::new(libm::sin(f64::from(i) * 12.9898) * 437.0 % 1.0, f64::from(i) * 0.618_034 % 1.0))
         .collect();
     let mut m = spade_mesh(&points);
     for t in (0..m.triangles.len()).step_by(997) {
         m.triangles[t].rotate_left(1);
         m.triangles[t].swap(0, t % 3);
     }
-    let request = CertifyOptions {
-        inputs: Some(&points),
-        ..Default::default()
-    };
+    let request = CertifyOptions { inputs: Some(&points), ..Default::default() };
     let run = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| certify(&m, &request))
     };
     let one = run(1);

@@ -40,9 +40,7 @@ pub(super) fn check(view: &View<'_>, cap: usize) -> Topology {
             part
         })
         .collect();
-    let mut sum = parts
-        .into_iter()
-        .fold(Topology::default(), |sum, part| sum.merge(part, cap));
+    let mut sum = parts.into_iter().fold(Topology::default(), |sum, part| sum.merge(part, cap));
     sum.boundary_edges = sum.boundary.len();
     sum.boundary_loops = components(&sum.boundary);
     sum
@@ -53,28 +51,19 @@ impl Topology {
         let vertex = VertexId::new(v);
         if fan.len() == 0 {
             self.unused_vertices += 1;
-            return note(&mut self.violations, cap, || Violation::UnusedVertex {
-                vertex,
-            });
+            return note(&mut self.violations, cap, || Violation::UnusedVertex { vertex });
         }
         let single = fan.is_single();
         if !single {
             self.branching_vertices += 1;
             let at = view.mesh.vertices[v];
-            note(&mut self.violations, cap, || Violation::BranchingVertex {
-                vertex,
-                at,
-            });
+            note(&mut self.violations, cap, || Violation::BranchingVertex { vertex, at });
             for i in (0..fan.len()).filter(|&i| fan.repeats_next(i)) {
                 self.repeated_edges += 1;
                 let triangle = TriangleId::new(fan.triangles[i] as usize);
                 let edge = [vertex, VertexId::new(fan.next[i] as usize)];
                 let ends = edge.map(|v| view.mesh.vertices[v.index()]);
-                note(&mut self.violations, cap, || Violation::RepeatedEdge {
-                    triangle,
-                    edge,
-                    ends,
-                });
+                note(&mut self.violations, cap, || Violation::RepeatedEdge { triangle, edge, ends });
             }
         }
         // Only in a tangle can several edges lead to the vertex from the same
@@ -88,10 +77,7 @@ impl Topology {
             self.edges += usize::from((j == NONE || (v as u32) < w) && first);
         }
         for quad in fan.upward_quads(v) {
-            if tangle
-                .as_ref()
-                .is_none_or(|tangle| tangle.is_simple(quad[2]))
-            {
+            if tangle.as_ref().is_none_or(|tangle| tangle.is_simple(quad[2])) {
                 self.edge(view, quad, cap);
             }
         }
@@ -106,11 +92,7 @@ impl Topology {
         note(&mut self.violations, cap, || {
             let [a, b, c, d] = quad.map(|v| view.mesh.vertices[v as usize]);
             let edge = [quad[0], quad[2]].map(|v| VertexId::new(v as usize));
-            Violation::NotDelaunay {
-                edge,
-                ends: [a, c],
-                opposite: [b, d],
-            }
+            Violation::NotDelaunay { edge, ends: [a, c], opposite: [b, d] }
         });
     }
 
@@ -121,8 +103,7 @@ impl Topology {
         self.edges += part.edges;
         self.non_delaunay_edges += part.non_delaunay_edges;
         let room = cap - self.violations.len();
-        self.violations
-            .extend(part.violations.into_iter().take(room));
+        self.violations.extend(part.violations.into_iter().take(room));
         self.boundary.extend(part.boundary);
         self
     }
@@ -153,10 +134,8 @@ impl Tangle {
 
     /// Whether the edge to `w` has two triangles and no more.
     fn is_simple(&self, w: u32) -> bool {
-        let [below, through] = [
-            self.ends.partition_point(|&u| u < w),
-            self.ends.partition_point(|&u| u <= w),
-        ];
+        let [below, through] =
+            [self.ends.partition_point(|&u| u < w), self.ends.partition_point(|&u| u <= w)];
         through - below == 2
     }
 }

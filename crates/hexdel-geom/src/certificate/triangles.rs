@@ -10,8 +10,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::{
-    ANGLE_TOLERANCE_DEG, CHUNK, CertifyOptions, LENGTH_TOLERANCE, ROUNDING_FACTOR, View, Violation,
-    note,
+    ANGLE_TOLERANCE_DEG, CHUNK, CertifyOptions, LENGTH_TOLERANCE, ROUNDING_FACTOR, View, Violation, note,
 };
 use crate::bounds::AngleBounds;
 use crate::incidence::well_formed;
@@ -46,9 +45,7 @@ pub(super) fn check(view: &View<'_>, request: &CertifyOptions<'_>) -> Shapes {
         .enumerate()
         .map(|(chunk, triangles)| Part::of(view, &limits, chunk * CHUNK, triangles))
         .collect();
-    let total = parts
-        .into_iter()
-        .fold(Part::default(), |sum, part| sum.merge(part, &limits));
+    let total = parts.into_iter().fold(Part::default(), |sum, part| sum.merge(part, &limits));
     total.finish(view)
 }
 
@@ -76,18 +73,12 @@ impl Limits {
         let low = request.bounds.min_deg() - ANGLE_TOLERANCE_DEG;
         let high = request.bounds.max_deg() + ANGLE_TOLERANCE_DEG;
         // No edge keeps a bound that is not a number.
-        let bound = request
-            .min_edge
-            .map_or(0.0, |e| if e.is_nan() { f64::INFINITY } else { e });
+        let bound = request.min_edge.map_or(0.0, |e| if e.is_nan() { f64::INFINITY } else { e });
         let min_edge = bound * view.scale;
         Self {
             bounds: request.bounds,
             max_cot: if low > 0.0 { cot(low) } else { f64::INFINITY },
-            min_cot: if high < 180.0 {
-                cot(high)
-            } else {
-                f64::NEG_INFINITY
-            },
+            min_cot: if high < 180.0 { cot(high) } else { f64::NEG_INFINITY },
             min_edge,
             min_edge_sq: (min_edge * (1.0 - LENGTH_TOLERANCE)).powi(2),
             max_violations: request.max_violations,
@@ -107,16 +98,9 @@ struct Part {
 
 impl Default for Part {
     fn default() -> Self {
-        let shapes = Shapes {
-            min_angle_deg: f64::INFINITY,
-            max_angle_deg: f64::NEG_INFINITY,
-            ..Shapes::default()
-        };
-        Self {
-            shapes,
-            cots: [f64::INFINITY, f64::NEG_INFINITY],
-            shortest_sq: f64::INFINITY,
-        }
+        let shapes =
+            Shapes { min_angle_deg: f64::INFINITY, max_angle_deg: f64::NEG_INFINITY, ..Shapes::default() };
+        Self { shapes, cots: [f64::INFINITY, f64::NEG_INFINITY], shortest_sq: f64::INFINITY }
     }
 }
 
@@ -139,13 +123,7 @@ impl Part {
     }
 
     #[inline]
-    fn shape(
-        &mut self,
-        view: &View<'_>,
-        limits: &Limits,
-        triangle: TriangleId,
-        [a, b, c]: [DVec2; 3],
-    ) {
+    fn shape(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, [a, b, c]: [DVec2; 3]) {
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let lengths_sq = [ab, bc, ca].map(DVec2::length_squared);
         let (left, right) = (ab.y * ca.x, ab.x * ca.y);
@@ -174,22 +152,12 @@ impl Part {
 
     /// A triangle whose orientation is not plain.
     #[cold]
-    fn doubtful(
-        &mut self,
-        view: &View<'_>,
-        limits: &Limits,
-        triangle: TriangleId,
-        corners: [DVec2; 3],
-    ) {
+    fn doubtful(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
         if let Some(i) = corners.iter().position(|p| !p.is_finite()) {
             self.shapes.not_finite += 1;
             let vertex = view.mesh.triangles[triangle.index()][i];
             let violation = || Violation::CornerNotFinite { triangle, vertex };
-            return note(
-                &mut self.shapes.violations,
-                limits.max_violations,
-                violation,
-            );
+            return note(&mut self.shapes.violations, limits.max_violations, violation);
         }
         let [a, b, c] = corners;
         for angle in angles_deg(corners) {
@@ -200,60 +168,35 @@ impl Part {
             self.shortest_sq = self.shortest_sq.min(side.length_squared());
         }
         if orient2d(a, b, c) > 0.0 {
-            self.shapes.max_aspect_ratio = self
-                .shapes
-                .max_aspect_ratio
-                .max(crate::quality::aspect_ratio(corners));
+            self.shapes.max_aspect_ratio =
+                self.shapes.max_aspect_ratio.max(crate::quality::aspect_ratio(corners));
             self.past_bounds(view, limits, triangle, corners);
         } else {
             self.shapes.not_counter_clockwise += 1;
-            note(&mut self.shapes.violations, limits.max_violations, || {
-                Violation::NotCounterClockwise {
-                    triangle,
-                    corners: original(view, corners),
-                }
+            note(&mut self.shapes.violations, limits.max_violations, || Violation::NotCounterClockwise {
+                triangle,
+                corners: original(view, corners),
             });
         }
         self.too_short(view, limits, triangle, corners);
     }
 
     #[cold]
-    fn past_bounds(
-        &mut self,
-        view: &View<'_>,
-        limits: &Limits,
-        triangle: TriangleId,
-        corners: [DVec2; 3],
-    ) {
+    fn past_bounds(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
         match check_angles(corners, limits.bounds) {
             Fit::Within => {}
             Fit::RoundingLimited { excess_deg } => {
                 self.shapes.rounding_limited += 1;
-                self.shapes.worst_rounding_excess_deg =
-                    self.shapes.worst_rounding_excess_deg.max(excess_deg);
+                self.shapes.worst_rounding_excess_deg = self.shapes.worst_rounding_excess_deg.max(excess_deg);
             }
-            Fit::Outside {
-                corner,
-                angle_deg,
-                below,
-            } => {
+            Fit::Outside { corner, angle_deg, below } => {
                 self.shapes.out_of_bounds += 1;
                 note(&mut self.shapes.violations, limits.max_violations, || {
                     let corners = original(view, corners);
                     if below {
-                        Violation::AngleBelow {
-                            triangle,
-                            corner,
-                            angle_deg,
-                            corners,
-                        }
+                        Violation::AngleBelow { triangle, corner, angle_deg, corners }
                     } else {
-                        Violation::AngleAbove {
-                            triangle,
-                            corner,
-                            angle_deg,
-                            corners,
-                        }
+                        Violation::AngleAbove { triangle, corner, angle_deg, corners }
                     }
                 });
             }
@@ -261,13 +204,7 @@ impl Part {
     }
 
     #[cold]
-    fn too_short(
-        &mut self,
-        view: &View<'_>,
-        limits: &Limits,
-        triangle: TriangleId,
-        corners: [DVec2; 3],
-    ) {
+    fn too_short(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
         let [a, b, c] = corners;
         let floor = limits.min_edge * (1.0 - LENGTH_TOLERANCE);
         let short = [(a, b), (b, c), (c, a)].into_iter().find_map(|(p, q)| {
@@ -277,12 +214,10 @@ impl Part {
         });
         if let Some(length) = short {
             self.shapes.short_triangles += 1;
-            note(&mut self.shapes.violations, limits.max_violations, || {
-                Violation::EdgeTooShort {
-                    triangle,
-                    length: length / view.scale,
-                    corners: original(view, corners),
-                }
+            note(&mut self.shapes.violations, limits.max_violations, || Violation::EdgeTooShort {
+                triangle,
+                length: length / view.scale,
+                corners: original(view, corners),
             });
         }
     }
@@ -294,19 +229,14 @@ impl Part {
         sum.max_aspect_ratio = sum.max_aspect_ratio.max(new.max_aspect_ratio);
         sum.out_of_bounds += new.out_of_bounds;
         sum.rounding_limited += new.rounding_limited;
-        sum.worst_rounding_excess_deg = sum
-            .worst_rounding_excess_deg
-            .max(new.worst_rounding_excess_deg);
+        sum.worst_rounding_excess_deg = sum.worst_rounding_excess_deg.max(new.worst_rounding_excess_deg);
         sum.not_counter_clockwise += new.not_counter_clockwise;
         sum.malformed += new.malformed;
         sum.not_finite += new.not_finite;
         sum.short_triangles += new.short_triangles;
         let room = limits.max_violations - sum.violations.len();
         sum.violations.extend(new.violations.into_iter().take(room));
-        self.cots = [
-            self.cots[0].min(part.cots[0]),
-            self.cots[1].max(part.cots[1]),
-        ];
+        self.cots = [self.cots[0].min(part.cots[0]), self.cots[1].max(part.cots[1])];
         self.shortest_sq = self.shortest_sq.min(part.shortest_sq);
         self
     }
@@ -321,11 +251,7 @@ impl Part {
         }
         shapes.shortest_edge = self.shortest_sq.sqrt() / view.scale;
         if self.shortest_sq.is_infinite() {
-            (
-                shapes.min_angle_deg,
-                shapes.max_angle_deg,
-                shapes.shortest_edge,
-            ) = (0.0, 0.0, 0.0);
+            (shapes.min_angle_deg, shapes.max_angle_deg, shapes.shortest_edge) = (0.0, 0.0, 0.0);
         }
         shapes
     }
@@ -334,16 +260,9 @@ impl Part {
 fn malformation(triangle: TriangleId, corners: [VertexId; 3], vertex_count: usize) -> Violation {
     let [a, b, c] = corners;
     match corners.iter().position(|v| v.index() >= vertex_count) {
-        Some(corner) => Violation::CornerOutOfRange {
-            triangle,
-            corner,
-            vertex: corners[corner],
-        },
+        Some(corner) => Violation::CornerOutOfRange { triangle, corner, vertex: corners[corner] },
         // If a and b differ, c is the same as one of them.
-        None => Violation::RepeatedCorner {
-            triangle,
-            vertex: if a == b { a } else { c },
-        },
+        None => Violation::RepeatedCorner { triangle, vertex: if a == b { a } else { c } },
     }
 }
 
@@ -392,19 +311,9 @@ pub(crate) fn check_angles(corners: [DVec2; 3], bounds: AngleBounds) -> Fit {
     }
     if let Some((_, corner)) = outside {
         let angle_deg = angles[corner];
-        return Fit::Outside {
-            corner,
-            angle_deg,
-            below: angle_deg < bounds.min_deg(),
-        };
+        return Fit::Outside { corner, angle_deg, below: angle_deg < bounds.min_deg() };
     }
-    if limited > 0.0 {
-        Fit::RoundingLimited {
-            excess_deg: limited,
-        }
-    } else {
-        Fit::Within
-    }
+    if limited > 0.0 { Fit::RoundingLimited { excess_deg: limited } } else { Fit::Within }
 }
 
 /// How far the rounding of the corners may have moved the angle at `a`; the

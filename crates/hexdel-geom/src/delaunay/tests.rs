@@ -15,14 +15,7 @@ fn wide() -> AngleBounds {
 }
 
 fn is_delaunay(mesh: &TriMesh, bounds: AngleBounds) -> bool {
-    certify(
-        mesh,
-        &CertifyOptions {
-            bounds,
-            ..CertifyOptions::default()
-        },
-    )
-    .holds()
+    certify(mesh, &CertifyOptions { bounds, ..CertifyOptions::default() }).holds()
 }
 
 /// A rectangular grid, rotated so that no rectangle is exactly cocircular,
@@ -48,10 +41,7 @@ fn nothing_to_do() {
     let report = restore_delaunay(&mut m, AngleBounds::EXTENDED, |_| true);
     assert_eq!(report, Ok(FlipReport::default()));
     assert_eq!(m, before);
-    assert_eq!(
-        restore_delaunay(&mut TriMesh::default(), wide(), |_| true),
-        Ok(FlipReport::default())
-    );
+    assert_eq!(restore_delaunay(&mut TriMesh::default(), wide(), |_| true), Ok(FlipReport::default()));
 }
 
 #[test]
@@ -74,12 +64,7 @@ fn kite(turn: f64) -> TriMesh {
     // The foot of the right angle over the hypotenuse from (0, 0).
     let length = f64::hypot(p, q);
     let (along, height) = (p * p / length, p * q / length);
-    let vertices = [
-        turned(0.0, 0.0),
-        turned(along, -height),
-        turned(length, 0.0),
-        turned(along, height),
-    ];
+    let vertices = [turned(0.0, 0.0), turned(along, -height), turned(length, 0.0), turned(along, height)];
     mesh(&vertices, &[[0, 1, 2], [0, 2, 3]])
 }
 
@@ -105,17 +90,11 @@ fn kites_are_nudged() {
 
 #[test]
 fn a_fixed_kite_is_an_error() {
-    let stuck = (0..200)
-        .map(|i| kite(f64::from(i) * 0.1))
-        .find_map(|mut m| {
-            let ends = [m.vertices[0], m.vertices[2]];
-            restore_delaunay(&mut m, AngleBounds::EXTENDED, |_| false)
-                .err()
-                .map(|e| (e, ends))
-        });
-    let (DelaunayError::Stuck { ends, .. }, expected) = stuck.unwrap() else {
-        panic!()
-    };
+    let stuck = (0..200).map(|i| kite(f64::from(i) * 0.1)).find_map(|mut m| {
+        let ends = [m.vertices[0], m.vertices[2]];
+        restore_delaunay(&mut m, AngleBounds::EXTENDED, |_| false).err().map(|e| (e, ends))
+    });
+    let (DelaunayError::Stuck { ends, .. }, expected) = stuck.unwrap() else { panic!() };
     assert_eq!(ends, expected);
 }
 
@@ -131,11 +110,7 @@ fn a_lattice_of_kites_is_nudged() {
         let (along, height) = (1.0 / f64::hypot(1.0, 0.98), 0.98 / f64::hypot(1.0, 0.98));
         for k in 0..20 {
             let x = f64::from(k) * f64::hypot(1.0, 0.98);
-            vertices.extend([
-                turned(x, 0.0),
-                turned(x + along, -height),
-                turned(x + along, height),
-            ]);
+            vertices.extend([turned(x, 0.0), turned(x + along, -height), turned(x + along, height)]);
             let i = 3 * k as usize;
             triangles.extend([[i, i + 1, i + 3], [i, i + 3, i + 2]]);
         }
@@ -143,13 +118,7 @@ fn a_lattice_of_kites_is_nudged() {
         let mut m = mesh(&vertices, &triangles);
         let report = restore_delaunay(&mut m, AngleBounds::EXTENDED, |_| true).unwrap();
         assert!(report.found > 0 && report.flips == 0);
-        let certificate = certify(
-            &m,
-            &CertifyOptions {
-                require_disk: false,
-                ..Default::default()
-            },
-        );
+        let certificate = certify(&m, &CertifyOptions { require_disk: false, ..Default::default() });
         assert!(certificate.delaunay && certificate.out_of_bounds == 0);
     }
 }
@@ -159,17 +128,11 @@ fn broken_meshes_are_errors() {
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let mut m = mesh(&square, &[[0, 1, 2], [0, 2, 7]]);
     let err = restore_delaunay(&mut m, wide(), |_| true).unwrap_err();
-    assert_eq!(
-        err.to_string(),
-        "triangle 1 has corners 0, 2, 7: not three vertices of the mesh"
-    );
+    assert_eq!(err.to_string(), "triangle 1 has corners 0, 2, 7: not three vertices of the mesh");
     let mut m = mesh(&square, &[[0, 1, 2], [0, 1, 3]]);
     let err = restore_delaunay(&mut m, wide(), |_| true).unwrap_err();
     assert!(matches!(err, DelaunayError::Overlap { .. }));
-    let mut m = mesh(
-        &[[f64::NAN, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
-        &[[0, 1, 2], [0, 2, 3]],
-    );
+    let mut m = mesh(&[[f64::NAN, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], &[[0, 1, 2], [0, 2, 3]]);
     assert!(restore_delaunay(&mut m, wide(), |_| true).is_ok());
 }
 
@@ -214,8 +177,7 @@ fn kite_tiling(n: i32, turn: f64, at: DVec2) -> TriMesh {
     let mut vertex = |mesh: &mut TriMesh, p: DVec2| {
         let key = [(p.x * 1e6).round() as i64, (p.y * 1e6).round() as i64];
         *ids.entry(key).or_insert_with(|| {
-            mesh.vertices
-                .push(DVec2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y) + at);
+            mesh.vertices.push(DVec2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y) + at);
             VertexId::new(mesh.vertices.len() - 1)
         })
     };
@@ -239,17 +201,10 @@ fn kite_tiling(n: i32, turn: f64, at: DVec2) -> TriMesh {
 fn interlocking_kites_end_in_an_error() {
     let bounds = AngleBounds::new(30.0, 90.0).unwrap();
     for turn in 0..4 {
-        let mut m = kite_tiling(
-            12,
-            f64::from(turn) * 0.7,
-            DVec2::new(3.3, -7.1) * f64::from(turn),
-        );
+        let mut m = kite_tiling(12, f64::from(turn) * 0.7, DVec2::new(3.3, -7.1) * f64::from(turn));
         let before = m.clone();
         let result = restore_delaunay(&mut m, bounds, |v| v.index() % 7 != 0);
-        assert!(
-            matches!(result, Err(DelaunayError::Stuck { .. })),
-            "{result:?}"
-        );
+        assert!(matches!(result, Err(DelaunayError::Stuck { .. })), "{result:?}");
         assert_eq!(m.triangles, before.triangles);
         for (v, (p, q)) in m.vertices.iter().zip(&before.vertices).enumerate() {
             assert!(p == q || (v % 7 != 0 && p.distance(*q) < 1e-10));
