@@ -12,12 +12,14 @@
 //! | [`class`] | the table of classes, sixty-four hexagons at a time |
 //! | [`relocate`] | the templates: where a vertex of each class goes |
 //! | [`exact`] | angle bounds in integer arithmetic |
+//! | [`hexagons`] | the hexagons behind a mesh, for pictures |
 //! | [`dual`] | the mesh: vertices, triangles and stars of three-finned hexagons |
 
 pub mod class;
 pub mod dual;
 
 pub mod exact;
+pub mod hexagons;
 pub mod relocate;
 
 pub use class::{Class, Classes, View};

@@ -1,0 +1,194 @@
+//! Where the hexagon grid is laid, and how fine it may get.
+//!
+//! Two points whose hexagons are four steps or more apart are in conflict with
+//! no rule. Hexagons at most three steps apart hold points at most
+//! `3 + 2 / sqrt(3)` spacings apart. So on a level whose spacing is that small a
+//! part of the closest pair's distance nothing is subdivided, ever: that level
+//! is the last. The spacing of level 0 is chosen as a power of two times it.
+
+use crate::error::Error;
+use hexdel_classify::Domain;
+use hexdel_geom::{Circle, ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
+use hexdel_grid::{Grid, Lattice};
+
+/// `3 + 2 / sqrt(3)`, rounded up: the largest distance, in spacings, of points
+/// in hexagons three steps apart.
+const CONFLICT_REACH: f64 = 4.154_700_539;
+
+/// The paper's bound on the shortest edge over the distance of the closest
+/// pair (section 6.3): `sqrt(7) / (12 sqrt(3))`.
+const SHORTEST_EDGE: f64 = 0.127_294_228_474_607_96;
+
+/// Largest coordinate: predicates take products of four, and of differences.
+const MAX_COORDINATE: f64 = 1e70;
+
+/// Spacings of the finest level that a coordinate's last place must fit into.
+/// An angle is then off by about `2^-12` radians, a hundredth of a degree, at
+/// the very worst, and reported as limited by rounding.
+const LAST_PLACES: f64 = 4096.0;
+
+/// Hexagons of level 0 across the input: the base level is chosen later, and
+/// coarser levels than the input's own size are never of use.
+const LEVEL_0_SPACINGS: f64 = 4.0;
+
+/// Steps from the centre of level 0 to the rim, when a radius is prescribed:
+/// with these and powers of two, a spacing is never more than 4/3 too fine,
+/// and the shortest edge stays above the paper's bound (6 / 4.15 = 1.44).
+const STEPS: [u32; 3] = [3, 4, 5];
+
+/// The lattice for a set of sites.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placement {
+    pub(crate) lattice: Lattice,
+    /// The smallest length that an edge may have, if there are two sites.
+    pub(crate) shortest_edge: Option<f64>,
+    /// Steps of level 0 to the rim, if the domain's radius is prescribed.
+    steps: Option<u32>,
+    /// The level that is never subdivided.
+    last_level: u8,
+}
+
+impl Placement {
+    /// Lays the grid around the sites' smallest enclosing circle.
+    pub(crate) fn new(points: &PointSet, radius: Option<f64>) -> Result<Self, Error> {
+        check_range(points)?;
+        if let Some(radius) = radius.filter(|r| !(r.is_finite() && *r > 0.0)) {
+            return Err(Error::InvalidRadius { radius });
+        }
+        let sites = points.sites();
+        let circle = smallest_enclosing_circle(sites).expect("a point set holds at least one finite point");
+        let Some(pair) = closest_pair(sites) else {
+            return Ok(Self::of_one(circle.center, radius));
+        };
+        check_resolved(points, &circle, &pair, radius)?;
+        let finest = pair.distance / CONFLICT_REACH;
+        let (spacing, steps, last_level) = match radius {
+            None => {
+                let levels = levels_between(LEVEL_0_SPACINGS * circle.radius, finest);
+                (finest * 2.0_f64.powi(i32::from(levels)), None, levels)
+            }
+            Some(radius) => {
+                let (steps, levels) = steps_for(radius, finest);
+                (radius / f64::from(steps), Some(steps), levels)
+            }
+        };
+        if last_level >= Grid::MAX_LEVELS {
+            let least = circle.radius * CONFLICT_REACH * 0.5_f64.powi(i32::from(Grid::MAX_LEVELS) - 4);
+            return Err(too_close(points, &pair, least));
+        }
+        let shortest_edge = Some(pair.distance * SHORTEST_EDGE);
+        Ok(Self { lattice: Lattice::new(circle.center, spacing), shortest_edge, steps, last_level })
+    }
+
+    /// A single site has no scale of its own: a patch of radius 1.
+    fn of_one(site: DVec2, radius: Option<f64>) -> Self {
+        let (spacing, steps) = match radius {
+            Some(radius) => (radius / f64::from(STEPS[0]), Some(STEPS[0])),
+            None => (0.5, None),
+        };
+        Self { lattice: Lattice::new(site, spacing), shortest_edge: None, steps, last_level: 0 }
+    }
+
+    /// The patch of the refined grid to cut the mesh out of: the one with the
+    /// fewest triangles, or the coarsest of the radius prescribed.
+    pub(crate) fn domain(&self, grid: &Grid, templates: bool) -> Result<Domain, Error> {
+        let Some(steps) = self.steps else {
+            return Ok(Domain::smallest(grid, templates));
+        };
+        let mut least = f64::INFINITY;
+        for level in 0..=self.last_level {
+            let Some(around) = Domain::around(grid, level) else { break };
+            let asked = u64::from(steps) << level;
+            if u64::from(around.radius) <= asked && asked <= u64::from(Domain::MAX_RADIUS) {
+                return Ok(Domain { radius: asked as u32, ..around });
+            }
+            least = least.min(f64::from(around.radius) * self.lattice.spacing(level));
+        }
+        Err(Error::DomainTooSmall { radius: f64::from(steps) * self.lattice.spacing(0), least })
+    }
+}
+
+/// How many times `finest` must be doubled to reach `size`; at most 255.
+fn levels_between(size: f64, finest: f64) -> u8 {
+    (size / finest).log2().ceil().clamp(0.0, 255.0) as u8
+}
+
+/// Steps of level 0 to the rim, and levels, such that the last level is just
+/// fine enough.
+fn steps_for(radius: f64, finest: f64) -> (u32, u8) {
+    let fits =
+        |&(steps, levels): &(u32, u8)| radius / f64::from(steps) * 0.5_f64.powi(i32::from(levels)) <= finest;
+    (0..=u8::MAX)
+        .flat_map(|levels| STEPS.map(|steps| (steps, levels)))
+        .find(fits)
+        .unwrap_or((STEPS[0], u8::MAX))
+}
+
+fn check_range(points: &PointSet) -> Result<(), Error> {
+    let beyond = |p: &DVec2| p.abs().max_element() > MAX_COORDINATE;
+    match points.sites().iter().position(beyond) {
+        Some(site) => Err(Error::OutOfRange {
+            index: points.input_of_site()[site] as usize,
+            point: points.sites()[site],
+            limit: MAX_COORDINATE,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Whether the closest pair is far enough apart for the coordinates there, and
+/// for the predicates.
+fn check_resolved(
+    points: &PointSet,
+    circle: &Circle,
+    pair: &ClosestPair,
+    radius: Option<f64>,
+) -> Result<(), Error> {
+    let _ = (circle, radius);
+    let largest = [pair.a, pair.b].map(|i| points.sites()[i].abs().max_element());
+    let last_place = largest[0].max(largest[1]) * f64::EPSILON;
+    let least = (last_place * LAST_PLACES * CONFLICT_REACH).max(1.0 / MAX_COORDINATE);
+    if pair.distance < least { Err(too_close(points, pair, least)) } else { Ok(()) }
+}
+
+fn too_close(points: &PointSet, pair: &ClosestPair, least: f64) -> Error {
+    Error::TooClose {
+        a: points.input_of_site()[pair.a] as usize,
+        b: points.input_of_site()[pair.b] as usize,
+        points: [points.sites()[pair.a], points.sites()[pair.b]],
+        distance: pair.distance,
+        least,
+    }
+}
+
+/// The error for a pair that refinement could not separate.
+pub(crate) fn unresolved(points: &PointSet) -> Error {
+    match closest_pair(points.sites()) {
+        Some(pair) => too_close(points, &pair, 2.0 * pair.distance),
+        None => Error::Points(hexdel_geom::PointsError::Empty),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_what_they_are_derived_from() {
+        let sqrt = f64::sqrt;
+        assert!(CONFLICT_REACH >= 3.0 + 2.0 / sqrt(3.0));
+        assert!(CONFLICT_REACH < 3.0 + 2.0 / sqrt(3.0) + 1e-8);
+        assert!((SHORTEST_EDGE - sqrt(7.0) / (12.0 * sqrt(3.0))).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_prescribed_radius_makes_the_last_level_just_fine_enough() {
+        for i in 1..200 {
+            let (radius, finest) = (3.7, 0.013 * f64::from(i));
+            let (steps, levels) = steps_for(radius, finest);
+            let last = radius / f64::from(steps) * 0.5_f64.powi(i32::from(levels));
+            assert!(last <= finest);
+            assert!(levels == 0 && steps == 3 || last >= finest * 0.75 * (1.0 - 1e-12), "{last} {finest}");
+        }
+    }
+}
