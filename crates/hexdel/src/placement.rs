@@ -17,7 +17,7 @@ const CONFLICT_REACH: f64 = 4.154_700_539;
 
 /// The paper's bound on the shortest edge over the distance of the closest
 /// pair (section 6.3): `sqrt(7) / (12 sqrt(3))`.
-const SHORTEST_EDGE: f64 = 0.127_294_228_474_607_96;
+const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
 
 /// Largest coordinate: predicates take products of four, and of differences.
 const MAX_COORDINATE: f64 = 1e70;
