@@ -8,7 +8,7 @@
 
 use crate::error::Error;
 use hexdel_classify::Domain;
-use hexdel_geom::{Circle, ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
+use hexdel_geom::{ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
 use hexdel_grid::{Grid, Lattice};
 
 /// `3 + 2 / sqrt(3)`, rounded up: the largest distance, in spacings, of points
@@ -23,9 +23,9 @@ const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
 const MAX_COORDINATE: f64 = 1e70;
 
 /// Spacings of the finest level that a coordinate's last place must fit into.
-/// An angle is then off by about `2^-12` radians, a hundredth of a degree, at
-/// the very worst, and reported as limited by rounding.
-const LAST_PLACES: f64 = 4096.0;
+/// An angle is then off by about `2^-15` radians, two thousandths of a degree,
+/// at the very worst, and reported as limited by rounding.
+const LAST_PLACES: f64 = 65536.0;
 
 /// Hexagons of level 0 across the input: the base level is chosen later, and
 /// coarser levels than the input's own size are never of use.
@@ -60,7 +60,7 @@ impl Placement {
         let Some(pair) = closest_pair(sites) else {
             return Ok(Self::of_one(circle.center, radius));
         };
-        check_resolved(points, &circle, &pair, radius)?;
+        check_resolved(points, &pair)?;
         let finest = pair.distance / CONFLICT_REACH;
         let (spacing, steps, last_level) = match radius {
             None => {
@@ -138,13 +138,7 @@ fn check_range(points: &PointSet) -> Result<(), Error> {
 
 /// Whether the closest pair is far enough apart for the coordinates there, and
 /// for the predicates.
-fn check_resolved(
-    points: &PointSet,
-    circle: &Circle,
-    pair: &ClosestPair,
-    radius: Option<f64>,
-) -> Result<(), Error> {
-    let _ = (circle, radius);
+fn check_resolved(points: &PointSet, pair: &ClosestPair) -> Result<(), Error> {
     let largest = [pair.a, pair.b].map(|i| points.sites()[i].abs().max_element());
     let last_place = largest[0].max(largest[1]) * f64::EPSILON;
     let least = (last_place * LAST_PLACES * CONFLICT_REACH).max(1.0 / MAX_COORDINATE);
