@@ -157,6 +157,28 @@ impl Refiner {
         self.close(monitor)
     }
 
+    /// Subdivides hexagons that the caller needs subdivided, for whatever
+    /// reason of its own, and refines until every rule holds again. Coarsening
+    /// leaves them subdivided.
+    ///
+    /// # Errors
+    ///
+    /// As [`insert`](Self::insert).
+    pub fn subdivide_all(
+        &mut self,
+        hexagons: impl IntoIterator<Item = Address>,
+        monitor: &dyn Monitor,
+    ) -> Result<(), RefineError> {
+        let mut moving = Vec::new();
+        for at in hexagons {
+            let (id, bit) = self.grid.tile_of(at);
+            self.grid.tiles_mut().get_mut(at.level, id).needed |= 1 << bit;
+            self.subdivide(at.level, id, 1 << bit, &mut moving);
+        }
+        self.sink(moving)?;
+        self.close(monitor)
+    }
+
     /// Moves points down until no hexagon holds two and no two occupied ones
     /// are closer than their rings allow.
     fn settle(&mut self, mut moving: Vec<usize>) -> Result<(), RefineError> {

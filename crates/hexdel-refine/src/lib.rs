@@ -10,10 +10,12 @@
 //! | [`simple`] | rules for 30 to 120 degrees, section 4.1 |
 //! | [`extended`] | rules for 43.9 to 90 degrees, section 5.2 |
 //! | [`triangle`] | the rule that section 5.2 lacks |
+//! | [`coarse`] | rules for coarse starts of an optimiser |
 //! | [`sites`] | input points and the hexagons they occupy |
 //! | [`engine`] | what is asked when |
 //! | `coarsen` | local coarsening, section 5.3 |
 
+pub mod coarse;
 mod coarsen;
 pub mod engine;
 pub mod extended;
@@ -22,5 +24,6 @@ pub mod simple;
 pub mod sites;
 pub mod triangle;
 
+pub use coarse::Start;
 pub use engine::{RefineError, Refiner};
 pub use rule::{Rule, RuleSet, Situation};

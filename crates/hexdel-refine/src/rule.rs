@@ -1,5 +1,6 @@
 //! What a rule is, and the two sets of rules.
 
+use crate::coarse::{self, Start};
 use crate::{extended, simple, triangle};
 use hexdel_classify::{Classes, View};
 use hexdel_grid::Window;
@@ -60,6 +61,12 @@ impl RuleSet {
     pub fn extended() -> Self {
         let rules = simple::RULES.iter().chain(extended::RULES).chain(triangle::RULES);
         Self { rules: rules.copied().collect() }
+    }
+
+    /// The rules of a coarse start for a mesh optimiser: hexagons have legal
+    /// classes, angles are not bounded yet.
+    pub fn coarse(start: Start) -> Self {
+        Self { rules: coarse::rules(start) }
     }
 
     /// These rules without the one of that name.

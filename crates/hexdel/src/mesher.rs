@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::placement::{self, Placement};
 use crate::triangulation::{Patch, Seconds, Triangulation};
-use hexdel_classify::{Domain, Dual, extract};
+use hexdel_classify::{Domain, Dual, Relocation, extract};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
@@ -31,6 +31,13 @@ impl Method {
         match self {
             Self::Templates => AngleBounds::EXTENDED,
             Self::Simple => AngleBounds::SIMPLE,
+        }
+    }
+
+    fn relocation(self) -> Relocation {
+        match self {
+            Self::Templates => Relocation::Full,
+            Self::Simple => Relocation::Occupied,
         }
     }
 
@@ -239,10 +246,10 @@ impl Mesher {
             .map_err(|error| Error::of_refinement(error, || placement::unresolved(&set)))?;
         let refined = Instant::now();
 
-        let templates = self.method == Method::Templates;
-        let domain = placement.domain(refiner.grid(), templates)?;
+        let relocation = self.method.relocation();
+        let domain = placement.domain(refiner.grid(), relocation)?;
         let occupants = refiner.occupants();
-        let mut dual = extract(refiner.grid_mut(), &occupants, domain, templates, monitor)?;
+        let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
         let extracted = Instant::now();
 
         check(monitor)?;

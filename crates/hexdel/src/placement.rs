@@ -7,7 +7,7 @@
 //! is the last. The spacing of level 0 is chosen as a power of two times it.
 
 use crate::error::Error;
-use hexdel_classify::Domain;
+use hexdel_classify::{Domain, Relocation};
 use hexdel_geom::{ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
 use hexdel_grid::{Grid, Lattice};
 
@@ -91,9 +91,9 @@ impl Placement {
 
     /// The patch of the refined grid to cut the mesh out of: the one with the
     /// fewest triangles, or the coarsest of the radius prescribed.
-    pub(crate) fn domain(&self, grid: &Grid, templates: bool) -> Result<Domain, Error> {
+    pub(crate) fn domain(&self, grid: &Grid, relocation: Relocation) -> Result<Domain, Error> {
         let Some(steps) = self.steps else {
-            return Ok(Domain::smallest(grid, templates));
+            return Ok(Domain::smallest(grid, relocation));
         };
         let mut least = f64::INFINITY;
         for level in 0..=self.last_level {

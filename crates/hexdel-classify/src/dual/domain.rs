@@ -6,6 +6,7 @@
 //! is neither subdivided nor moved. Its sides are then straight, and so is the
 //! proof: nothing at the rim differs from the inside.
 
+use super::Relocation;
 use crate::class::{Classes, View};
 use hexdel_grid::{Direction, Grid, Hex, TileId, Window};
 
@@ -41,7 +42,7 @@ impl Domain {
     /// A patch of radius `n` has `6 n^2` triangles before anything in it is
     /// subdivided, and a disk gains two with each vertex: what a finer base
     /// level leaves away is counted without making the mesh.
-    pub fn smallest(grid: &Grid, templates: bool) -> Self {
+    pub fn smallest(grid: &Grid, relocation: Relocation) -> Self {
         let mut best = (i64::MAX, Self { base_level: 0, radius: 1 });
         let mut left_away = 0;
         for level in 0..=grid.tiles().levels() as u8 {
@@ -52,7 +53,7 @@ impl Domain {
             if triangles < best.0 {
                 best = (triangles, domain);
             }
-            left_away += 2 * vertices_gained(grid, level, templates);
+            left_away += 2 * vertices_gained(grid, level, relocation);
         }
         best.1
     }
@@ -83,13 +84,13 @@ pub(super) fn tiles(grid: &Grid, level: u8) -> impl Iterator<Item = TileId> + us
 
 /// How many vertices the subdivided hexagons of a level add: one for each pair
 /// of neighbours, and those that three-finned hexagons insert.
-fn vertices_gained(grid: &Grid, level: u8, templates: bool) -> i64 {
+fn vertices_gained(grid: &Grid, level: u8, relocation: Relocation) -> i64 {
     let gained = tiles(grid, level).map(|id| {
         let subdivided = grid.tiles().window(level, id, |t| t.subdivided);
         let inside = |set: Window| i64::from((set & Window::with_margin(0)).count());
         let pairs: i64 =
             [0, 1, 2].into_iter().map(|d| inside(subdivided & subdivided.at(Direction::new(d)))).sum();
-        if !templates {
+        if relocation == Relocation::Occupied {
             return pairs;
         }
         let classes = Classes::of(subdivided);

@@ -61,6 +61,18 @@ pub struct Dual {
     pub domain: Domain,
 }
 
+/// Which vertices leave their hexagon's centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relocation {
+    /// Occupied ones, onto their points (section 4.2).
+    Occupied,
+    /// Those that a template moves by its fins, and occupied ones: a start for
+    /// an optimiser.
+    Fins,
+    /// All that section 5.4 moves, rings of occupied hexagons included.
+    Full,
+}
+
 /// Why a dual mesh cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -78,9 +90,7 @@ pub enum DualError {
 
 /// Makes the dual mesh of a grid whose rules all hold.
 ///
-/// With `templates`, vertices are relocated by class (43.9 to 90 degrees);
-/// without, only occupied ones move (30 to 120 degrees). Tiles for the leaves
-/// are added to the grid's store; its sets do not change.
+/// Tiles for the leaves are added to the grid's store; its sets do not change.
 ///
 /// # Errors
 ///
@@ -94,17 +104,17 @@ pub fn extract(
     grid: &mut Grid,
     occupants: &[Occupant],
     domain: Domain,
-    templates: bool,
+    relocation: Relocation,
     monitor: &dyn Monitor,
 ) -> Result<Dual, DualError> {
     check(monitor)?;
     layout::require_leaf_tiles(grid, domain);
-    let layout = Layout::new(grid, domain, templates)?;
+    let layout = Layout::new(grid, domain, relocation != Relocation::Occupied)?;
     let total = layout.triangles();
     monitor.progress(Phase::Extract, total / 3, total);
     check(monitor)?;
     let mut vertices = vertices::fill(&layout);
-    let vertex_of_occupant = vertices::place_occupants(&layout, occupants, &mut vertices);
+    let vertex_of_occupant = vertices::place_occupants(&layout, occupants, relocation, &mut vertices);
     monitor.progress(Phase::Extract, total / 2, total);
     check(monitor)?;
     let triangles = triangles::fill(&layout);

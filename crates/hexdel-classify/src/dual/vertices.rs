@@ -1,7 +1,7 @@
 //! Coordinates of the vertices.
 
 use super::layout::{Block, Layout, Sets};
-use super::{Occupant, star};
+use super::{Occupant, Relocation, star};
 use crate::exact::Offset;
 use crate::relocate::{ring_may_stay, ring_shift};
 use hexdel_geom::{DVec2, VertexId};
@@ -93,6 +93,7 @@ impl Frame {
 pub(super) fn place_occupants(
     layout: &Layout,
     occupants: &[Occupant],
+    relocation: Relocation,
     vertices: &mut [DVec2],
 ) -> Vec<VertexId> {
     occupants
@@ -101,7 +102,7 @@ pub(super) fn place_occupants(
             let (level, hex) = (occupant.level, occupant.at.hex);
             let vertex = vertex_at(layout, level, hex);
             vertices[vertex.index()] = occupant.point;
-            if layout.templates && !ring_may_stay(&occupant.at) {
+            if relocation == Relocation::Full && !ring_may_stay(&occupant.at) {
                 let shift = ring_shift(&occupant.at);
                 for beside in hex.neighbours() {
                     let moved = vertex_at(layout, level, beside);
