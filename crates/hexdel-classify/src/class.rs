@@ -202,13 +202,24 @@ fn mask(sets: &[Window; 6], at: Hex) -> u8 {
     (0..6).fold(0, |m, d| m | u8::from(sets[d].contains(at)) << d)
 }
 
+/// The direction of the middle fin of the hexagon at `at`, up to two hexagons
+/// beyond the tile; `None` if it is no [`Class::MovedCenter3`].
+#[inline]
+pub fn middle_fin(subdivided: Window, at: Hex) -> Option<Direction> {
+    match single_run(subdivided.ring_of(at)) {
+        Some((first, 3)) if !subdivided.contains(at) => Some(first.turned(1)),
+        _ => None,
+    }
+}
+
 /// Where a cyclic run of set bits among six starts and how long it is; `None`
 /// if there is none, more than one, or all six are set.
 #[inline]
 pub fn single_run(mask: u8) -> Option<(Direction, usize)> {
     let after_another = mask << 1 | mask >> 5;
     let starts = mask & !after_another;
-    (starts.count_ones() == 1)
+    starts
+        .is_power_of_two()
         .then(|| (Direction::new(starts.trailing_zeros() as usize), mask.count_ones() as usize))
 }
 
@@ -239,6 +250,8 @@ mod tests {
                 let classes = Classes::of(set);
                 assert_eq!(classes.class_of(centre), by_table(fins), "fins {fins:06b}");
                 assert_eq!(classes.fins_of(centre), fins);
+                let middle = Direction::ALL.into_iter().find(|d| classes.middle[d.index()].contains(centre));
+                assert_eq!(middle_fin(set, centre), middle);
             }
         }
     }

@@ -15,6 +15,13 @@ fn read(path: &str) -> Vec<DVec2> {
         })
         .collect()
 }
+fn cpu() -> f64 {
+    std::fs::read_dir("/proc/self/task")
+        .unwrap()
+        .map(|t| std::fs::read_to_string(t.unwrap().path().join("schedstat")).unwrap())
+        .map(|s| s.split(' ').next().unwrap().parse::<f64>().unwrap() / 1e9)
+        .sum()
+}
 fn uniform(n: usize, seed: u64) -> Vec<DVec2> {
     let mut s = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
     let mut r = || {
@@ -53,10 +60,12 @@ fn run(name: &str, mut pts: Vec<DVec2>, out: Option<&str>, scale: f64) -> usize 
         }
     }
     let t0 = Instant::now();
+    let c0 = cpu();
     let mut refiner =
         Refiner::new(Lattice::new(c, r * scale), rules).with_coarsening(std::env::var("FINE").is_err());
     refiner.insert(&pts, &Unwatched).unwrap();
     let t1 = Instant::now();
+    let c1 = cpu();
     if pts.len() < 5000 {
         if let Some(v) = refiner.violation() {
             println!("VIOLATION {v:?}");
@@ -68,6 +77,7 @@ fn run(name: &str, mut pts: Vec<DVec2>, out: Option<&str>, scale: f64) -> usize 
     let occ = refiner.occupants();
     let mut best: Option<hexdel_classify::Dual> = None;
     let t2 = Instant::now();
+    let c2 = cpu();
     for base in 0..6 {
         let Some(domain) = Domain::around(refiner.grid(), base) else {
             break;
@@ -84,6 +94,7 @@ fn run(name: &str, mut pts: Vec<DVec2>, out: Option<&str>, scale: f64) -> usize 
         }
     }
     let t3 = Instant::now();
+    let c3 = cpu();
     let d = best.unwrap();
     let n = d.mesh.triangles.len();
     println!(
@@ -96,6 +107,24 @@ fn run(name: &str, mut pts: Vec<DVec2>, out: Option<&str>, scale: f64) -> usize 
         (t3 - t2).as_secs_f64(),
         n as f64 / (t1 - t0 + (t3 - t2)).as_secs_f64() / 1e6
     );
+    println!(
+        "cpu refine {:.3} extract {:.3} {:.2} Mtri/s",
+        c1 - c0,
+        c3 - c2,
+        n as f64 / 1e6 / (c1 - c0 + c3 - c2)
+    );
+    if std::env::var("SUM").is_ok() {
+        let h = |v: hexdel_geom::VertexId| {
+            let p = d.mesh.vertices[v.index()];
+            (p.x.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ p.y.to_bits().rotate_left(29))
+                .wrapping_mul(0xD6E8_FEB8_6659_FD93)
+        };
+        let sum = d.mesh.triangles.iter().fold(0u64, |s, t| {
+            let [a, b, c] = t.map(h);
+            s.wrapping_add(a.wrapping_mul(b).wrapping_add(b.wrapping_mul(c)).wrapping_add(c.wrapping_mul(a)))
+        });
+        println!("checksum {sum:016x} vertices {}", d.mesh.vertices.len());
+    }
     if let Some(out) = out {
         use std::fmt::Write;
         let mut s = format!("{} 2 0 0\n", d.mesh.vertices.len());

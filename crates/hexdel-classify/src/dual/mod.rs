@@ -21,11 +21,15 @@
 //! |---|---|
 //! | [`domain`] | the hexagonal patch that the mesh covers |
 //! | [`layout`] | which vertices and how many triangles each tile has |
+//! | `brood` | what subdivided hexagons bring forth one level finer |
+//! | `fill` | tasks, each with its part of both arrays |
 //! | [`vertices`] | coordinates |
 //! | [`triangles`] | index triples |
 //! | [`star`] | the triangles around a three-finned hexagon |
 
+mod brood;
 pub mod domain;
+mod fill;
 pub mod layout;
 pub mod star;
 pub mod triangles;
@@ -98,16 +102,14 @@ pub fn extract(
     monitor: &dyn Monitor,
 ) -> Result<Dual, DualError> {
     check(monitor)?;
-    layout::require_leaf_tiles(grid, domain);
     let layout = Layout::new(grid, domain, templates)?;
     let total = layout.triangles();
-    monitor.progress(Phase::Extract, total / 3, total);
+    monitor.progress(Phase::Extract, total / 4, total);
     check(monitor)?;
-    let mut vertices = vertices::fill(&layout);
-    let vertex_of_occupant = vertices::place_occupants(&layout, occupants, &mut vertices);
-    monitor.progress(Phase::Extract, total / 2, total);
+    let mut mesh = fill::mesh(&layout);
+    monitor.progress(Phase::Extract, total - total / 8, total);
     check(monitor)?;
-    let triangles = triangles::fill(&layout);
+    let vertex_of_occupant = vertices::place_occupants(&layout, occupants, templates, &mut mesh.vertices);
     monitor.progress(Phase::Extract, total, total);
-    Ok(Dual { mesh: TriMesh { vertices, triangles }, vertex_of_occupant, domain })
+    Ok(Dual { mesh, vertex_of_occupant, domain })
 }
