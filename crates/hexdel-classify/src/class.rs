@@ -69,12 +69,9 @@ impl View {
 
     /// Reads a tile and its margin.
     pub fn of(grid: &Grid, level: u8, id: TileId) -> Self {
-        let window = |plane: fn(&hexdel_grid::Tile) -> u64| grid.tiles().window(level, id, plane);
-        Self {
-            subdivided: window(|t| t.subdivided),
-            occupied1: window(|t| t.marks[Self::OCCUPIED1]),
-            occupied2: window(|t| t.marks[Self::OCCUPIED2]),
-        }
+        let planes = |t: &hexdel_grid::Tile| [t.subdivided, t.marks[Self::OCCUPIED1], t.marks[Self::OCCUPIED2]];
+        let [subdivided, occupied1, occupied2] = grid.tiles().windows(level, id, planes);
+        Self { subdivided, occupied1, occupied2 }
     }
 
     /// The hexagons that hold an input point.
@@ -87,7 +84,7 @@ impl View {
 ///
 /// Fins are right for the tile and a margin of three hexagons, everything about
 /// tops for a margin of two.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Classes {
     /// The subdivided hexagons.
     pub subdivided: Window,
@@ -115,6 +112,9 @@ impl Classes {
     /// Hexagons that do not exist count as plain ones: no rule depends on
     /// them, since whatever has fins has six neighbours.
     pub fn of(subdivided: Window) -> Self {
+        if subdivided.is_empty() {
+            return Self::default();
+        }
         let fins = Direction::ALL.map(|d| subdivided.at(d).without(subdivided));
         let f = |d: usize| fins[d % 6];
         // starts: fins with none before them, counter-clockwise. Exactly one
@@ -136,8 +136,11 @@ impl Classes {
         let moved1 = row.without(two_in_row);
         let moved2 = (row & two_in_row).without(three);
         let moved3 = (row & three).without(four);
-        let middle = std::array::from_fn(|d| moved3 & f(d + 5) & f(d) & f(d + 1));
-        let under = Direction::ALL.map(|d| Window::at(middle[d.index()], d));
+        let (mut middle, mut under) = ([Window::EMPTY; 6], [Window::EMPTY; 6]);
+        if !moved3.is_empty() {
+            middle = std::array::from_fn(|d| moved3 & f(d + 5) & f(d) & f(d + 1));
+            under = Direction::ALL.map(|d| Window::at(middle[d.index()], d));
+        }
         let irregular = any.without(moved1 | moved2 | moved3);
         Self { subdivided, fins, moved1, moved2, moved3, irregular, middle, under }
     }

@@ -201,9 +201,35 @@ impl Tiles {
         ])
     }
 
-    /// Makes the neighbours exist that a window around one of `bits` reaches:
-    /// all within [`Window::MARGIN`] hexagons.
-    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) {
+    /// The windows of a tile for several planes at once.
+    #[inline]
+    pub fn windows<const N: usize>(
+        &self,
+        level: u8,
+        id: TileId,
+        planes: impl Fn(&Tile) -> [u64; N],
+    ) -> [Window; N] {
+        let tiles = &self.levels[usize::from(level)];
+        let around = &tiles[id.index()].around;
+        let mut bits = [[[0; 3]; 3]; N];
+        let mut any = [0; N];
+        for (i, there) in around.iter().enumerate() {
+            if let Some(there) = there.some() {
+                for (plane, word) in planes(&tiles[there.index()]).into_iter().enumerate() {
+                    bits[plane][i / 3][i % 3] = word;
+                    any[plane] |= word;
+                }
+            }
+        }
+        std::array::from_fn(|plane| {
+            if any[plane] == 0 { Window::EMPTY } else { Window::gather(&bits[plane]) }
+        })
+    }
+
+    /// Makes the tiles exist whose window reaches one of `bits`, those within
+    /// [`Window::MARGIN`] hexagons, and calls `with` for each of them, the tile
+    /// itself included.
+    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64, mut with: impl FnMut(TileId)) {
         // A bit in a half of the tile is within four hexagons of the tile
         // beyond that half's side.
         const LEFT: u64 = 0x0f0f_0f0f_0f0f_0f0f;
@@ -211,7 +237,7 @@ impl Tiles {
         for (row, rows) in [(-1, LOW), (0, u64::MAX), (1, !LOW)] {
             for (column, columns) in [(-1, LEFT), (0, u64::MAX), (1, !LEFT)] {
                 if bits & rows & columns != 0 {
-                    self.require_beside(level, id, column, row);
+                    with(self.require_beside(level, id, column, row));
                 }
             }
         }
@@ -325,7 +351,9 @@ mod tests {
     fn margins_are_made_where_bits_reach_them() {
         let mut tiles = Tiles::default();
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
-        tiles.require_margin(1, id, 1 << bit);
+        let mut reached = Vec::new();
+        tiles.require_margin(1, id, 1 << bit, |tile| reached.push(tile));
+        assert_eq!(reached.len(), tiles.level(1).len());
         let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
         let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
         let mut made_sorted = made;

@@ -92,10 +92,30 @@ impl Window {
         east | west | east.down::<15>() | west.up::<15>()
     }
 
+    /// The hexagons with another one of this set at most `n` steps away.
+    #[must_use]
+    pub fn others_within(self, n: usize) -> Self {
+        let [east, up, west, down] = [0, 1, 3, 4].map(Direction::new);
+        // Row by row: `n` steps away in row `r` are columns -n to n - r. Of a
+        // hexagon's own row, all but itself; of those above and below, with
+        // the lines shifted on from row to row, outermost first.
+        let (mut right, mut left) = ([self; Self::MARGIN as usize], [self; Self::MARGIN as usize]);
+        for k in 1..=n {
+            right[k] = right[k - 1] | right[k - 1].at(east);
+            left[k] = left[k - 1] | left[k - 1].at(west);
+        }
+        let (mut above, mut below) = (Self::EMPTY, Self::EMPTY);
+        for r in (1..=n).rev() {
+            above = (above | right[n - r] | left[n]).at(up);
+            below = (below | left[n - r] | right[n]).at(down);
+        }
+        above | below | right[n - 1].at(east) | left[n - 1].at(west)
+    }
+
     /// Whether no hexagon is in the set.
     #[inline]
     pub fn is_empty(self) -> bool {
-        self.0 == [0; 4]
+        self.0[0] | self.0[1] | self.0[2] | self.0[3] == 0
     }
 
     /// How many hexagons are in the set.
@@ -337,6 +357,17 @@ mod tests {
             }
             let disc: Window = at.disc(1).collect();
             assert_eq!(single(at.q, at.r).dilated(), disc);
+        }
+    }
+
+    #[test]
+    fn others_are_found_at_every_distance() {
+        for at in Window::with_margin(0).iter() {
+            for n in 1..=3 {
+                let near = single(at.q, at.r).others_within(n as usize);
+                let expected: Window = at.disc(n).filter(|&h| h != at).collect();
+                assert_eq!(near, expected);
+            }
         }
     }
 

@@ -342,9 +342,9 @@ impl Refiner {
             self.open.resize_with(k + 1, Queue::default);
             self.unprojected.resize_with(k + 1, Queue::default);
         }
-        self.grid.tiles_mut().require_margin(level, id, bits);
+        let open = &mut self.open[k];
+        self.grid.tiles_mut().require_margin(level, id, bits, |tile| open.push(tile));
         for tile in self.grid.tiles().around(level, id) {
-            self.open[k].push(tile);
             self.unprojected[k].push(tile);
         }
     }
