@@ -74,7 +74,14 @@ impl View {
         Self { subdivided, occupied1, occupied2 }
     }
 
+    /// Whether nothing is subdivided or occupied.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        (self.subdivided | self.occupied1 | self.occupied2).is_empty()
+    }
+
     /// The hexagons that hold an input point.
+    #[inline]
     pub fn occupied(&self) -> Window {
         self.occupied1 | self.occupied2
     }

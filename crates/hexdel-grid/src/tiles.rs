@@ -131,6 +131,20 @@ impl Tiles {
         (id, bit)
     }
 
+    /// The same as [`require`](Self::require), faster if the hexagon lies in the
+    /// tile `hint` or beside it.
+    #[inline]
+    pub fn require_near(&mut self, level: u8, hint: TileId, hex: Hex) -> (TileId, u32) {
+        let (position, bit) = split(hex);
+        let from = self.get(level, hint).position;
+        let (column, row) = (position.0 - from.0, position.1 - from.1);
+        if column.abs() <= 1 && row.abs() <= 1 {
+            (self.require_beside(level, hint, column, row), bit)
+        } else {
+            self.require(level, hex)
+        }
+    }
+
     /// One of the 3 x 3 tiles around, `column` and `row` from -1 to 1.
     #[inline]
     pub fn beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
@@ -327,6 +341,7 @@ mod tests {
                     let (column, row) = (i % 3 - 1, i / 3 - 1);
                     let there = h + Hex::new(SIDE * column, SIDE * row);
                     assert_eq!(tiles.beside(3, id, column, row), tiles.find(3, there).map(|(t, _)| t));
+                    assert_eq!(Some(tiles.require_near(3, id, h)), tiles.find(3, h));
                 }
             }
         }

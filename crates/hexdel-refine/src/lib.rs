@@ -12,11 +12,13 @@
 //! | [`triangle`] | the rule that section 5.2 lacks |
 //! | [`sites`] | input points and the hexagons they occupy |
 //! | [`engine`] | what is asked when |
+//! | `queue` | tiles that wait for their turn |
 //! | `coarsen` | local coarsening, section 5.3 |
 
 mod coarsen;
 pub mod engine;
 pub mod extended;
+mod queue;
 pub mod rule;
 pub mod simple;
 pub mod sites;
