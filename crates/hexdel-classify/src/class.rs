@@ -69,15 +69,20 @@ impl View {
 
     /// Reads a tile and its margin.
     pub fn of(grid: &Grid, level: u8, id: TileId) -> Self {
-        let window = |plane: fn(&hexdel_grid::Tile) -> u64| grid.tiles().window(level, id, plane);
-        Self {
-            subdivided: window(|t| t.subdivided),
-            occupied1: window(|t| t.marks[Self::OCCUPIED1]),
-            occupied2: window(|t| t.marks[Self::OCCUPIED2]),
-        }
+        let planes =
+            |t: &hexdel_grid::Tile| [t.subdivided, t.marks[Self::OCCUPIED1], t.marks[Self::OCCUPIED2]];
+        let [subdivided, occupied1, occupied2] = grid.tiles().windows(level, id, planes);
+        Self { subdivided, occupied1, occupied2 }
+    }
+
+    /// Whether nothing is subdivided or occupied.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        (self.subdivided | self.occupied1 | self.occupied2).is_empty()
     }
 
     /// The hexagons that hold an input point.
+    #[inline]
     pub fn occupied(&self) -> Window {
         self.occupied1 | self.occupied2
     }
@@ -87,7 +92,7 @@ impl View {
 ///
 /// Fins are right for the tile and a margin of three hexagons, everything about
 /// tops for a margin of two.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Classes {
     /// The subdivided hexagons.
     pub subdivided: Window,
@@ -115,6 +120,9 @@ impl Classes {
     /// Hexagons that do not exist count as plain ones: no rule depends on
     /// them, since whatever has fins has six neighbours.
     pub fn of(subdivided: Window) -> Self {
+        if subdivided.is_empty() {
+            return Self::default();
+        }
         let fins = Direction::ALL.map(|d| subdivided.at(d).without(subdivided));
         let f = |d: usize| fins[d % 6];
         // starts: fins with none before them, counter-clockwise. Exactly one
@@ -136,8 +144,11 @@ impl Classes {
         let moved1 = row.without(two_in_row);
         let moved2 = (row & two_in_row).without(three);
         let moved3 = (row & three).without(four);
-        let middle = std::array::from_fn(|d| moved3 & f(d + 5) & f(d) & f(d + 1));
-        let under = Direction::ALL.map(|d| Window::at(middle[d.index()], d));
+        let (mut middle, mut under) = ([Window::EMPTY; 6], [Window::EMPTY; 6]);
+        if !moved3.is_empty() {
+            middle = std::array::from_fn(|d| moved3 & f(d + 5) & f(d) & f(d + 1));
+            under = Direction::ALL.map(|d| Window::at(middle[d.index()], d));
+        }
         let irregular = any.without(moved1 | moved2 | moved3);
         Self { subdivided, fins, moved1, moved2, moved3, irregular, middle, under }
     }
@@ -202,13 +213,24 @@ fn mask(sets: &[Window; 6], at: Hex) -> u8 {
     (0..6).fold(0, |m, d| m | u8::from(sets[d].contains(at)) << d)
 }
 
+/// The direction of the middle fin of the hexagon at `at`, up to two hexagons
+/// beyond the tile; `None` if it is no [`Class::MovedCenter3`].
+#[inline]
+pub fn middle_fin(subdivided: Window, at: Hex) -> Option<Direction> {
+    match single_run(subdivided.ring_of(at)) {
+        Some((first, 3)) if !subdivided.contains(at) => Some(first.turned(1)),
+        _ => None,
+    }
+}
+
 /// Where a cyclic run of set bits among six starts and how long it is; `None`
 /// if there is none, more than one, or all six are set.
 #[inline]
 pub fn single_run(mask: u8) -> Option<(Direction, usize)> {
     let after_another = mask << 1 | mask >> 5;
     let starts = mask & !after_another;
-    (starts.count_ones() == 1)
+    starts
+        .is_power_of_two()
         .then(|| (Direction::new(starts.trailing_zeros() as usize), mask.count_ones() as usize))
 }
 
@@ -239,6 +261,8 @@ mod tests {
                 let classes = Classes::of(set);
                 assert_eq!(classes.class_of(centre), by_table(fins), "fins {fins:06b}");
                 assert_eq!(classes.fins_of(centre), fins);
+                let middle = Direction::ALL.into_iter().find(|d| classes.middle[d.index()].contains(centre));
+                assert_eq!(middle_fin(set, centre), middle);
             }
         }
     }

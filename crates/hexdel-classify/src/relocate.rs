@@ -20,10 +20,10 @@
 //!       g0  t  g2
 //! ```
 
-use crate::class::{Classes, single_run};
+use crate::class::{Classes, middle_fin, single_run};
 use crate::exact::Offset;
 use hexdel_geom::DVec2;
-use hexdel_grid::{Direction, Hex, Located};
+use hexdel_grid::{Direction, Hex, Located, Window};
 
 /// How far a `MovedCenter1` goes towards its fin.
 pub fn towards_one(fin: Direction) -> Offset {
@@ -141,21 +141,38 @@ impl Classes {
     /// For a single `MovedCenter3`, which has no vertex of its own, this is
     /// where it would be in a run.
     pub fn relocation(&self, at: Hex) -> Offset {
-        let fins = self.fins_of(at);
         if self.subdivided.contains(at) {
             return Offset::ZERO;
         }
-        match (single_run(fins), fins) {
-            (Some((d, 1)), _) => towards_one(d),
-            (Some((d, 2)), _) => towards_two(d),
-            (Some((d, 3)), _) => towards_top(d.turned(1)),
-            (None, 0) => self.top_relocation(at),
-            _ => Offset::ZERO,
-        }
+        by_surroundings(self.fins_of(at), || self.under_of(at))
     }
+}
 
-    fn top_relocation(&self, at: Hex) -> Offset {
-        single_run(self.under_of(at)).and_then(|(first, n)| from_run(first, n)).unwrap_or_default()
+/// The same as [`Classes::relocation`], from the subdivided hexagons alone;
+/// cheaper for a few hexagons. `at` lies at most two hexagons beyond the tile.
+#[inline]
+pub fn relocation(subdivided: Window, at: Hex) -> Offset {
+    if subdivided.contains(at) {
+        return Offset::ZERO;
+    }
+    by_surroundings(subdivided.ring_of(at), || {
+        Direction::ALL
+            .into_iter()
+            .filter(|&d| middle_fin(subdivided, at.neighbour(d)) == Some(d))
+            .fold(0, |under, d| under | 1 << d.index())
+    })
+}
+
+/// By a hexagon's fins and, if it has none, the three-finned hexagons that it
+/// is the top of.
+#[inline]
+fn by_surroundings(fins: u8, under: impl FnOnce() -> u8) -> Offset {
+    match (single_run(fins), fins) {
+        (Some((d, 1)), _) => towards_one(d),
+        (Some((d, 2)), _) => towards_two(d),
+        (Some((d, 3)), _) => towards_top(d.turned(1)),
+        (None, 0) => single_run(under()).and_then(|(first, n)| from_run(first, n)).unwrap_or_default(),
+        _ => Offset::ZERO,
     }
 }
 
@@ -217,6 +234,23 @@ mod tests {
         for (i, t) in star.into_iter().enumerate() {
             assert!(ExactBounds::EXTENDED.hold(t), "triangle {i}");
         }
+    }
+
+    #[test]
+    fn both_ways_to_a_relocation_agree() {
+        let mut tops = 0;
+        for seed in 0..500_i64 {
+            let centre = |i: i64| Hex::new((seed * 7 + i * 5) % 16 - 4, (seed * 3 + i * 11) % 16 - 4);
+            let disc = |i: i64| centre(i).disc(((seed + i) % 3 + 1) as u32);
+            let inside = |h: &Hex| Window::with_margin(4).iter().any(|w| w == *h);
+            let subdivided = !(0..4).flat_map(disc).filter(inside).collect::<Window>();
+            let classes = Classes::of(subdivided);
+            for at in Window::with_margin(2).iter() {
+                assert_eq!(relocation(subdivided, at), classes.relocation(at));
+                tops += u32::from(classes.under_of(at) != 0 && classes.fins_of(at) == 0);
+            }
+        }
+        assert!(tops > 0);
     }
 
     #[test]

@@ -131,6 +131,20 @@ impl Tiles {
         (id, bit)
     }
 
+    /// The same as [`require`](Self::require), faster if the hexagon lies in the
+    /// tile `hint` or beside it.
+    #[inline]
+    pub fn require_near(&mut self, level: u8, hint: TileId, hex: Hex) -> (TileId, u32) {
+        let (position, bit) = split(hex);
+        let from = self.get(level, hint).position;
+        let (column, row) = (position.0 - from.0, position.1 - from.1);
+        if column.abs() <= 1 && row.abs() <= 1 {
+            (self.require_beside(level, hint, column, row), bit)
+        } else {
+            self.require(level, hex)
+        }
+    }
+
     /// One of the 3 x 3 tiles around, `column` and `row` from -1 to 1.
     #[inline]
     pub fn beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
@@ -201,9 +215,37 @@ impl Tiles {
         ])
     }
 
-    /// Makes the neighbours exist that a window around one of `bits` reaches:
-    /// all within [`Window::MARGIN`] hexagons.
-    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) {
+    /// The windows of a tile for several planes at once.
+    #[inline]
+    pub fn windows<const N: usize>(
+        &self,
+        level: u8,
+        id: TileId,
+        planes: impl Fn(&Tile) -> [u64; N],
+    ) -> [Window; N] {
+        let tiles = &self.levels[usize::from(level)];
+        let around = &tiles[id.index()].around;
+        let mut bits = [[[0; 3]; 3]; N];
+        let mut any = [0; N];
+        for (i, there) in around.iter().enumerate() {
+            if let Some(there) = there.some() {
+                for (plane, word) in planes(&tiles[there.index()]).into_iter().enumerate() {
+                    bits[plane][i / 3][i % 3] = word;
+                    any[plane] |= word;
+                }
+            }
+        }
+        std::array::from_fn(
+            |plane| {
+                if any[plane] == 0 { Window::EMPTY } else { Window::gather(&bits[plane]) }
+            },
+        )
+    }
+
+    /// Makes the tiles exist whose window reaches one of `bits`, those within
+    /// [`Window::MARGIN`] hexagons, and calls `with` for each of them, the tile
+    /// itself included.
+    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64, mut with: impl FnMut(TileId)) {
         // A bit in a half of the tile is within four hexagons of the tile
         // beyond that half's side.
         const LEFT: u64 = 0x0f0f_0f0f_0f0f_0f0f;
@@ -211,7 +253,7 @@ impl Tiles {
         for (row, rows) in [(-1, LOW), (0, u64::MAX), (1, !LOW)] {
             for (column, columns) in [(-1, LEFT), (0, u64::MAX), (1, !LEFT)] {
                 if bits & rows & columns != 0 {
-                    self.require_beside(level, id, column, row);
+                    with(self.require_beside(level, id, column, row));
                 }
             }
         }
@@ -301,6 +343,7 @@ mod tests {
                     let (column, row) = (i % 3 - 1, i / 3 - 1);
                     let there = h + Hex::new(SIDE * column, SIDE * row);
                     assert_eq!(tiles.beside(3, id, column, row), tiles.find(3, there).map(|(t, _)| t));
+                    assert_eq!(Some(tiles.require_near(3, id, h)), tiles.find(3, h));
                 }
             }
         }
@@ -325,7 +368,9 @@ mod tests {
     fn margins_are_made_where_bits_reach_them() {
         let mut tiles = Tiles::default();
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
-        tiles.require_margin(1, id, 1 << bit);
+        let mut reached = Vec::new();
+        tiles.require_margin(1, id, 1 << bit, |tile| reached.push(tile));
+        assert_eq!(reached.len(), tiles.level(1).len());
         let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
         let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
         let mut made_sorted = made;

@@ -40,25 +40,19 @@ impl Window {
     /// first.
     #[inline]
     pub fn gather(around: &[[u64; 3]; 3]) -> Self {
-        let mut words = [0_u64; 4];
-        for (word, rows) in [(0, 4..8), (3, 0..4)] {
-            let tiles = &around[word / 3 * 2];
-            words[word] = quarter(tiles, rows.start);
-        }
-        words[1] = quarter(&around[1], 0);
-        words[2] = quarter(&around[1], 4);
-        Self(words)
+        let [south, middle, north] = around;
+        Self([
+            quarter(south.map(|tile| tile >> 32)),
+            quarter(*middle),
+            quarter(middle.map(|tile| tile >> 32)),
+            quarter(*north),
+        ])
     }
 
     /// The bits of the tile in the middle, bit `8 row + column`.
     #[inline]
     pub fn centre(self) -> u64 {
-        let mut bits = 0;
-        for row in 0..8 {
-            let word = self.0[1 + row / 4];
-            bits |= (word >> (16 * (row % 4) + 4) & 0xff) << (8 * row);
-        }
-        bits
+        gather_rows(self.0[1] >> 4) | gather_rows(self.0[2] >> 4) << 32
     }
 
     /// The window whose tile in the middle holds `bits` and all else nothing.
@@ -98,10 +92,30 @@ impl Window {
         east | west | east.down::<15>() | west.up::<15>()
     }
 
+    /// The hexagons with another one of this set at most `n` steps away.
+    #[must_use]
+    pub fn others_within(self, n: usize) -> Self {
+        let [east, up, west, down] = [0, 1, 3, 4].map(Direction::new);
+        // Row by row: `n` steps away in row `r` are columns -n to n - r. Of a
+        // hexagon's own row, all but itself; of those above and below, with
+        // the lines shifted on from row to row, outermost first.
+        let (mut right, mut left) = ([self; Self::MARGIN as usize], [self; Self::MARGIN as usize]);
+        for k in 1..=n {
+            right[k] = right[k - 1] | right[k - 1].at(east);
+            left[k] = left[k - 1] | left[k - 1].at(west);
+        }
+        let (mut above, mut below) = (Self::EMPTY, Self::EMPTY);
+        for r in (1..=n).rev() {
+            above = (above | right[n - r] | left[n]).at(up);
+            below = (below | left[n - r] | right[n]).at(down);
+        }
+        above | below | right[n - 1].at(east) | left[n - 1].at(west)
+    }
+
     /// Whether no hexagon is in the set.
     #[inline]
     pub fn is_empty(self) -> bool {
-        self.0 == [0; 4]
+        self.0[0] | self.0[1] | self.0[2] | self.0[3] == 0
     }
 
     /// How many hexagons are in the set.
@@ -147,14 +161,29 @@ impl Window {
         })
     }
 
+    /// The neighbours of the hexagon at `at` that are in the set, bit `i` for
+    /// direction `i`; `at` may lie up to three hexagons beyond the tile.
+    #[inline]
+    pub fn ring_of(self, at: Hex) -> u8 {
+        debug_assert!(Self::with_margin(3).contains(at), "{at:?} lies too near the edge");
+        let (column, row) = ((at.q + Self::MARGIN) as usize, (at.r + Self::MARGIN) as usize);
+        // The row's bits from one column before `at` on.
+        let from = |row: usize| self.0[row / 4] >> (16 * (row % 4) + column - 1);
+        let (below, level, above) = (from(row - 1), from(row), from(row + 1));
+        let bits = level >> 2 & 1 | above & 2 | above << 2 & 4 | level << 3 & 8 | below << 3 & 0x10;
+        (bits | below << 3 & 0x20) as u8
+    }
+
     /// The hexagons of the tile and of the `n` layers around it.
-    pub fn with_margin(n: i64) -> Self {
-        debug_assert!((0..=Self::MARGIN).contains(&n));
-        let row = (0xffff_u64 >> (8 - 2 * n)) & 0xffff;
-        let row = row << (Self::MARGIN - n) & 0xffff;
+    #[inline]
+    pub const fn with_margin(n: i64) -> Self {
+        debug_assert!(0 <= n && n <= Self::MARGIN);
+        let row = ((1 << (8 + 2 * n)) - 1_u64) << (Self::MARGIN - n);
         let mut words = [0; 4];
-        for r in Self::MARGIN - n..Self::MARGIN + 8 + n {
+        let mut r = Self::MARGIN - n;
+        while r < Self::MARGIN + 8 + n {
             words[r as usize / 4] |= row << (16 * (r % 4));
+            r += 1;
         }
         Self(words)
     }
@@ -165,12 +194,12 @@ impl Window {
     pub fn cut(self, corner: Hex) -> u64 {
         let (column, first) = ((corner.q + Self::MARGIN) as usize, (corner.r + Self::MARGIN) as usize);
         debug_assert!(column <= 8 && first <= 8);
-        let mut bits = 0;
-        for row in 0..8 {
-            let r = first + row;
-            bits |= (self.0[r / 4] >> (16 * (r % 4) + column) & 0xff) << (8 * row);
-        }
-        bits
+        let rows = |from: usize| {
+            let (word, shift) = (from / 4, 16 * (from % 4));
+            let next = self.0.get(word + 1).map_or(0, |next| next << 1 << (63 - shift));
+            gather_rows((self.0[word] >> shift | next) >> column)
+        };
+        rows(first) | rows(first + 4) << 32
     }
 
     /// Spreads 8 x 8 hexagons to their scaled centres one level finer: the
@@ -221,19 +250,28 @@ impl Window {
     }
 }
 
-/// Four window rows from three tiles side by side, starting at their row
-/// `first`.
+/// Four window rows from the lower four rows of three tiles side by side.
 #[inline]
-fn quarter(tiles: &[u64; 3], first: usize) -> u64 {
-    let mut word = 0;
-    for i in 0..4 {
-        let shift = 8 * (first + i);
-        let row = (tiles[0] >> shift & 0xf0) >> 4
-            | (tiles[1] >> shift & 0xff) << 4
-            | (tiles[2] >> shift & 0x0f) << 12;
-        word |= row << (16 * i);
-    }
-    word
+const fn quarter(tiles: [u64; 3]) -> u64 {
+    const FOUR: u64 = 0x000f_000f_000f_000f;
+    let [west, middle, east] = [spread_rows(tiles[0]), spread_rows(tiles[1]), spread_rows(tiles[2])];
+    west >> 4 & FOUR | middle << 4 | (east & FOUR) << 12
+}
+
+/// The lower four bytes of a word, each to the low byte of sixteen bits.
+#[inline]
+const fn spread_rows(tile: u64) -> u64 {
+    let x = tile & 0xffff_ffff;
+    let x = (x | x << 16) & 0x0000_ffff_0000_ffff;
+    (x | x << 8) & 0x00ff_00ff_00ff_00ff
+}
+
+/// The inverse of [`spread_rows`].
+#[inline]
+const fn gather_rows(window: u64) -> u64 {
+    let x = window & 0x00ff_00ff_00ff_00ff;
+    let x = (x | x >> 8) & 0x0000_ffff_0000_ffff;
+    (x | x >> 16) & 0xffff_ffff
 }
 
 /// Bit `i` of eight to bit `2 i`.
@@ -323,6 +361,17 @@ mod tests {
     }
 
     #[test]
+    fn others_are_found_at_every_distance() {
+        for at in Window::with_margin(0).iter() {
+            for n in 1..=3 {
+                let near = single(at.q, at.r).others_within(n as usize);
+                let expected: Window = at.disc(n).filter(|&h| h != at).collect();
+                assert_eq!(near, expected);
+            }
+        }
+    }
+
+    #[test]
     fn gather_places_nine_tiles() {
         for at in Window::with_margin(4).iter() {
             let (tq, tr) = (at.q.div_euclid(8) + 1, at.r.div_euclid(8) + 1);
@@ -335,6 +384,16 @@ mod tests {
     }
 
     #[test]
+    fn rings_agree_with_neighbours() {
+        let set = Window([0x0123_4567_89ab_cdef, 0xdead_beef_0bad_cafe, 0x5bd1_e995_9e37_79b9, 0x1357_9bdf]);
+        for at in Window::with_margin(3).iter() {
+            for d in Direction::ALL {
+                assert_eq!(set.ring_of(at) >> d.index() & 1 == 1, set.contains(at.neighbour(d)));
+            }
+        }
+    }
+
+    #[test]
     fn centre_and_cut_agree() {
         let bits = 0x0123_4567_89ab_cdef;
         let w = Window::from_centre(bits);
@@ -343,6 +402,12 @@ mod tests {
         assert_eq!(w.count(), bits.count_ones());
         for at in w.iter() {
             assert!(bits >> (8 * at.r + at.q) & 1 == 1);
+        }
+        for corner in Window::with_margin(4).iter().filter(|c| c.q <= 4 && c.r <= 4) {
+            for at in Window::with_margin(0).iter() {
+                let bit = Window::FULL.without(w).cut(corner) >> (8 * at.r + at.q) & 1 == 1;
+                assert_eq!(bit, !w.contains(corner + at));
+            }
         }
     }
 

@@ -81,7 +81,7 @@ fn assert_same(grid: &Grid, naive: &Naive) {
 
 fn check_neighbours(grid: &Grid, at: Address, fins: u8) {
     for d in Direction::ALL {
-        match grid.neighbour(at, d).unwrap() {
+        match grid.neighbour(at, d).expect("a leaf has neighbours") {
             Neighbour::Same(n) => {
                 assert_eq!(grid.neighbour(n, d.opposite()), Some(Neighbour::Same(at)));
             }

@@ -16,8 +16,9 @@
 //! proportion to what changes: near-linear in the output.
 
 use crate::coarsen;
+use crate::queue::Queue;
 use crate::rule::{RuleSet, Situation};
-use crate::sites::Site;
+use crate::sites::{Site, Sites};
 use hexdel_classify::{Occupant, View};
 use hexdel_geom::DVec2;
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
@@ -25,7 +26,6 @@ use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Address, Grid, Lattice, TileId};
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 use thiserror::Error;
 
 /// Why points cannot be refined for.
@@ -54,11 +54,9 @@ pub struct Refiner {
     rules: RuleSet,
     /// Whether closed levels are looked over for what can be merged again.
     coarsening: bool,
-    /// All points, in the order of adding. Each occupies a leaf of its level,
-    /// whose mark is set, except while it descends.
-    sites: Vec<Site>,
-    /// Per level: the site that occupies a hexagon, by tile and bit.
-    occupants: Vec<FxHashMap<(TileId, u32), u32>>,
+    /// All points. Each occupies a leaf of its level, whose mark is set, except
+    /// while it descends.
+    sites: Sites,
     /// Per level: tiles whose rules must be asked again.
     open: Vec<Queue>,
     /// Per level: tiles whose demands on the next coarser level may have
@@ -68,34 +66,9 @@ pub struct Refiner {
     asked: u64,
 }
 
-/// A list of tiles, each at most once.
-#[derive(Clone, Debug, Default)]
-struct Queue {
-    list: Vec<TileId>,
-    /// Whether a tile is in the list, by id; false beyond the end.
-    queued: Vec<bool>,
-}
-
-impl Queue {
-    fn push(&mut self, id: TileId) {
-        if id.index() >= self.queued.len() {
-            self.queued.resize(id.index() + 1, false);
-        }
-        if !std::mem::replace(&mut self.queued[id.index()], true) {
-            self.list.push(id);
-        }
-    }
-
-    /// Empties the list; in tile order.
-    fn take(&mut self) -> Vec<TileId> {
-        let mut list = std::mem::take(&mut self.list);
-        for id in &list {
-            self.queued[id.index()] = false;
-        }
-        list.sort_unstable();
-        list
-    }
-}
+/// Fewer tiles than this are asked at once by one thread: handing them out
+/// would take longer.
+const TILES_PER_TASK: usize = 64;
 
 impl Refiner {
     /// An empty grid on `lattice` that is to obey `rules`.
@@ -104,8 +77,7 @@ impl Refiner {
             grid: Grid::new(lattice),
             rules,
             coarsening: true,
-            sites: Vec::new(),
-            occupants: Vec::new(),
+            sites: Sites::default(),
             open: Vec::new(),
             unprojected: Vec::new(),
             asked: 0,
@@ -131,7 +103,7 @@ impl Refiner {
 
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
-        self.sites.iter().map(|s| Occupant { level: s.level, at: s.at, point: s.point }).collect()
+        self.sites.occupants()
     }
 
     /// Adds points and refines until every rule holds again.
@@ -150,10 +122,9 @@ impl Refiner {
     /// Near-linear in the number of hexagons that come to exist, plus the
     /// number of points times their levels.
     pub fn insert(&mut self, points: &[DVec2], monitor: &dyn Monitor) -> Result<(), RefineError> {
-        let first = self.sites.len();
         let lattice = *self.grid.lattice();
-        self.sites.par_extend(points.par_iter().map(|&p| Site::new(&lattice, p)));
-        self.settle((first..self.sites.len()).collect())?;
+        let added = self.sites.add(&lattice, points);
+        self.settle(added, monitor)?;
         self.close(monitor)
     }
 
@@ -181,20 +152,22 @@ impl Refiner {
 
     /// Moves points down until no hexagon holds two and no two occupied ones
     /// are closer than their rings allow.
-    fn settle(&mut self, mut moving: Vec<usize>) -> Result<(), RefineError> {
+    fn settle(&mut self, mut moving: Vec<u32>, monitor: &dyn Monitor) -> Result<(), RefineError> {
         let mut level = 0;
         while !moving.is_empty() {
+            check(monitor)?;
             let mut next = Vec::new();
-            for site in moving {
-                self.occupy(site, &mut next);
-            }
+            self.occupy_all(&moving, &mut next);
             // Only points can be in conflict yet; what else the rules want is
             // asked again when all points have settled.
-            while let Some(queue) = self.open.get_mut(level).filter(|q| !q.list.is_empty()) {
+            while let Some(queue) = self.open.get_mut(level).filter(|q| !q.is_empty()) {
                 let tiles = queue.take();
-                self.asked += tiles.len() as u64;
-                let asked = self.ask(level as u8, tiles);
-                for (id, bits) in asked {
+                let occupied = |id| {
+                    let tile = self.grid.tiles().get(level as u8, id);
+                    tile.marks[0] | tile.marks[1]
+                };
+                let tiles: Vec<_> = tiles.into_iter().filter(|&id| occupied(id) != 0).collect();
+                for (id, bits) in self.ask(level as u8, tiles) {
                     let tile = self.grid.tiles().get(level as u8, id);
                     let occupied = tile.marks[0] | tile.marks[1];
                     self.subdivide(level as u8, id, bits & occupied, &mut next);
@@ -206,19 +179,17 @@ impl Refiner {
             level += 1;
         }
         for level in 0..self.unprojected.len() {
-            for id in self.unprojected[level].list.clone() {
-                self.open[level].push(id);
-            }
+            self.open[level] = self.unprojected[level].clone();
         }
         Ok(())
     }
 
     /// Closes and projects levels, finest first.
     fn close(&mut self, monitor: &dyn Monitor) -> Result<(), RefineError> {
-        let pending = |queues: &[Queue]| queues.iter().rposition(|q| !q.list.is_empty());
+        let pending = |queues: &[Queue]| queues.iter().rposition(|q| !q.is_empty());
         while let Some(level) = pending(&self.open).max(pending(&self.unprojected)) {
             check(monitor)?;
-            if self.open[level].list.is_empty() {
+            if self.open[level].is_empty() {
                 self.coarsen(level as u8);
                 self.project(level as u8)?;
             } else {
@@ -232,7 +203,6 @@ impl Refiner {
     /// Asks the open tiles of a level once and subdivides what they want.
     fn round(&mut self, level: u8) -> Result<(), RefineError> {
         let tiles = self.open[usize::from(level)].take();
-        self.asked += tiles.len() as u64;
         let mut moving = Vec::new();
         for (id, bits) in self.ask(level, tiles) {
             self.subdivide(level, id, bits, &mut moving);
@@ -241,33 +211,35 @@ impl Refiner {
     }
 
     /// Moves points whose hexagon was subdivided down to the next leaf.
-    fn sink(&mut self, mut moving: Vec<usize>) -> Result<(), RefineError> {
+    fn sink(&mut self, mut moving: Vec<u32>) -> Result<(), RefineError> {
         while !moving.is_empty() {
             moving.sort_unstable();
             self.descend(&moving)?;
             let mut next = Vec::new();
-            for site in moving {
-                self.occupy(site, &mut next);
-            }
+            self.occupy_all(&moving, &mut next);
             moving = next;
         }
         Ok(())
     }
 
     /// The hexagons that the rules want subdivided, by tile.
-    fn ask(&self, level: u8, tiles: Vec<TileId>) -> Vec<(TileId, u64)> {
+    fn ask(&mut self, level: u8, tiles: Vec<TileId>) -> Vec<(TileId, u64)> {
+        self.asked += tiles.len() as u64;
         let ask = |id| {
             let view = View::of(&self.grid, level, id);
+            if view.is_empty() {
+                return (id, 0);
+            }
             (id, self.rules.must_subdivide(&Situation::of(view)))
         };
-        tiles.into_par_iter().map(ask).filter(|(_, bits)| *bits != 0).collect()
+        let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
+        tiles.map(ask).filter(|(_, bits)| *bits != 0).collect()
     }
 
     /// Merges what a closed level has to spare.
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
-            let mut tiles = self.unprojected[usize::from(level)].list.clone();
-            tiles.sort_unstable();
+            let tiles: Vec<_> = self.unprojected[usize::from(level)].iter().collect();
             coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
         }
     }
@@ -280,12 +252,17 @@ impl Refiner {
         };
         self.asked += tiles.len() as u64;
         let demand = |id| {
-            let situation = Situation::of(View::of(&self.grid, level, id));
+            let view = View::of(&self.grid, level, id);
+            if view.is_empty() {
+                return (id, 0);
+            }
+            let situation = Situation::of(view);
             // The parents of a hexagon are those whose scaled centre it is or
             // lies beside.
             (id, self.rules.must_exist(&situation).dilated().even_centre())
         };
-        let demands: Vec<_> = tiles.into_par_iter().map(demand).filter(|(_, d)| *d != 0).collect();
+        let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
+        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| *d != 0).collect();
         let mut moving = Vec::new();
         for (id, demand) in demands {
             let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
@@ -299,7 +276,7 @@ impl Refiner {
 
     /// Subdivides hexagons of a tile. The points that occupy them are added to
     /// `moving`.
-    fn subdivide(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<usize>) {
+    fn subdivide(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) {
         let tile = self.grid.tiles_mut().get_mut(level, id);
         let bits = bits & !tile.subdivided;
         if bits == 0 {
@@ -309,34 +286,51 @@ impl Refiner {
         let occupied = bits & (tile.marks[0] | tile.marks[1]);
         tile.marks = tile.marks.map(|plane| plane & !bits);
         for bit in ones(occupied) {
-            let site = self.occupants[usize::from(level)].remove(&(id, bit));
-            moving.push(site.expect("a marked hexagon has an occupant") as usize);
+            let site = self.sites.leave(level, id, bit);
+            moving.push(site.expect("a marked hexagon has an occupant"));
         }
         self.changed(level, id, bits);
     }
 
     /// Puts points one level down.
-    fn descend(&mut self, moving: &[usize]) -> Result<(), RefineError> {
-        let lattice = *self.grid.lattice();
-        for &site in moving {
-            let levels = Grid::MAX_LEVELS;
-            let s = &mut self.sites[site];
-            if s.level + 1 >= levels {
-                return Err(RefineError::TooClose { site, point: s.point, levels });
+    fn descend(&mut self, moving: &[u32]) -> Result<(), RefineError> {
+        let (lattice, levels) = (*self.grid.lattice(), Grid::MAX_LEVELS);
+        let lower = |&id: &u32| {
+            let s = self.sites.get(id);
+            Site::new(&lattice, s.level + 1, s.point)
+        };
+        let lowered: Vec<_> = moving.par_iter().with_min_len(TILES_PER_TASK).map(lower).collect();
+        for (&id, site) in moving.iter().zip(lowered) {
+            if site.level >= levels {
+                return Err(RefineError::TooClose {
+                    site: self.sites.index_of(id),
+                    point: site.point,
+                    levels,
+                });
             }
-            s.descend(&lattice);
+            *self.sites.get_mut(id) = site;
         }
         Ok(())
     }
 
-    /// Lets a point occupy its hexagon. If that is subdivided the point moves
+    /// Lets points occupy their hexagons. If one is subdivided its point moves
     /// on, if it is occupied both do.
-    fn occupy(&mut self, site: usize, moving: &mut Vec<usize>) {
-        let (level, hex, plane) = {
-            let s = &self.sites[site];
-            (s.level, s.at.hex, s.plane())
-        };
-        let (id, bit) = self.grid.tile_of(Address::new(level, hex));
+    fn occupy_all(&mut self, sites: &[u32], moving: &mut Vec<u32>) {
+        // Points come along a curve: the next one's tile is near the last's.
+        let mut hint: Option<(u8, TileId)> = None;
+        for &id in sites {
+            let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
+            let (tile, bit) = match hint.filter(|&(l, _)| l == level) {
+                Some((_, near)) => self.grid.tiles_mut().require_near(level, near, hex),
+                None => self.grid.tile_of(Address::new(level, hex)),
+            };
+            hint = Some((level, tile));
+            self.occupy(id, (tile, bit), moving);
+        }
+    }
+
+    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32), moving: &mut Vec<u32>) {
+        let level = self.sites.get(site).level;
         let tile = self.grid.tiles_mut().get_mut(level, id);
         if tile.subdivided >> bit & 1 == 1 {
             moving.push(site);
@@ -347,13 +341,9 @@ impl Refiner {
             self.subdivide(level, id, 1 << bit, moving);
             return;
         }
-        tile.marks[plane] |= 1 << bit;
-        let level = usize::from(level);
-        if level >= self.occupants.len() {
-            self.occupants.resize_with(level + 1, FxHashMap::default);
-        }
-        self.occupants[level].insert((id, bit), site as u32);
-        self.changed(level as u8, id, 1 << bit);
+        tile.marks[self.sites.get(site).plane()] |= 1 << bit;
+        self.sites.enter(site, id);
+        self.changed(level, id, 1 << bit);
     }
 
     /// Notes that hexagons of a tile changed: all tiles that see them are to be
@@ -364,9 +354,9 @@ impl Refiner {
             self.open.resize_with(k + 1, Queue::default);
             self.unprojected.resize_with(k + 1, Queue::default);
         }
-        self.grid.tiles_mut().require_margin(level, id, bits);
+        let open = &mut self.open[k];
+        self.grid.tiles_mut().require_margin(level, id, bits, |tile| open.push(tile));
         for tile in self.grid.tiles().around(level, id) {
-            self.open[k].push(tile);
             self.unprojected[k].push(tile);
         }
     }

@@ -6,8 +6,7 @@
 //! other rules, and is often nothing.
 
 use crate::rule::{Rule, Situation};
-use hexdel_classify::class::single_run;
-use hexdel_grid::{Direction, Hex, Window};
+use hexdel_grid::{Direction, Window};
 
 /// The rules of this module, in the paper's order.
 pub static RULES: &[&dyn Rule] = &[
@@ -51,7 +50,7 @@ impl Rule for MovedInRing {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        if s.view.occupied().is_empty() {
+        if s.view.subdivided.is_empty() || (s.view.occupied() & Window::with_margin(0)).is_empty() {
             return Window::EMPTY;
         }
         let moved = s.view.subdivided.dilated() | s.classes.moved4();
@@ -64,30 +63,24 @@ impl Rule for MovedInRing {
 /// hexagon: `Occupied2` are four steps apart, and three from `Occupied1`.
 pub struct OccupiedRings;
 
-impl OccupiedRings {
-    /// Steps that two occupied hexagons must be apart; `true` stands for class
-    /// `Occupied2`.
-    pub const fn apart(a: bool, b: bool) -> u64 {
-        2 + a as u64 + b as u64
-    }
-}
-
 impl Rule for OccupiedRings {
     fn name(&self) -> &'static str {
         "rings of two occupied"
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        let occupied = s.view.occupied();
-        if occupied.count() < 2 {
-            return Window::EMPTY;
+        let (one, two) = (s.view.occupied1, s.view.occupied2);
+        let mut close = Window::EMPTY;
+        if !one.is_empty() {
+            close = one & one.others_within(1);
         }
-        let all: Vec<_> = occupied.iter().map(|at| (at, s.view.occupied2.contains(at))).collect();
-        let close = |&(at, two): &(Hex, bool)| {
-            all.iter()
-                .any(|&(other, other_two)| at != other && at.distance(other) < Self::apart(two, other_two))
-        };
-        all.iter().filter(|at| close(at)).map(|(at, _)| *at).collect()
+        if !two.is_empty() {
+            close |= two & two.others_within(3);
+        }
+        if !one.is_empty() && !two.is_empty() {
+            close |= one & two.others_within(2) | two & one.others_within(2);
+        }
+        close
     }
 }
 
@@ -118,12 +111,22 @@ impl Rule for TopOfTwoRuns {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        let tops = s.classes.moved4();
-        let two = |at: &Hex| {
-            let under = s.classes.under_of(*at);
-            under != 0b11_1111 && single_run(under).is_none_or(|(_, n)| n == 5)
-        };
-        (tops & Window::with_margin(0)).iter().filter(two).collect()
+        let c = &s.classes;
+        if c.moved3.is_empty() {
+            return Window::EMPTY;
+        }
+        // Runs start where there is none before; five in a run have one start.
+        let (mut one, mut more) = (Window::EMPTY, Window::EMPTY);
+        let mut gaps = Window::EMPTY;
+        let mut two_gaps = Window::EMPTY;
+        for d in 0..6 {
+            let start = c.under[(d + 1) % 6].without(c.under[d]);
+            more |= one & start;
+            one |= start;
+            two_gaps |= gaps.without(c.under[d]);
+            gaps |= !c.under[d];
+        }
+        c.moved4() & (more | one.without(two_gaps))
     }
 }
 
@@ -137,6 +140,9 @@ impl Rule for TopWithFins {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
+        if s.classes.moved3.is_empty() {
+            return Window::EMPTY;
+        }
         let finned = s.classes.finned();
         Direction::ALL
             .into_iter()
@@ -165,7 +171,7 @@ impl Rule for TwoFinsBesideRun {
             return Window::EMPTY;
         }
         let mut set = Window::EMPTY;
-        for d in 0..6 {
+        for d in (0..6).filter(|&d| !c.middle[d].is_empty()) {
             let turned = |by: usize| Direction::new(d + by);
             // Around the top at -d, the next lies at d + 2, the one before at
             // d - 2; the hexagon beyond it in the same direction again.

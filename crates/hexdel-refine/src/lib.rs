@@ -13,12 +13,14 @@
 //! | [`coarse`] | rules for coarse starts of an optimiser |
 //! | [`sites`] | input points and the hexagons they occupy |
 //! | [`engine`] | what is asked when |
+//! | `queue` | tiles that wait for their turn |
 //! | `coarsen` | local coarsening, section 5.3 |
 
 pub mod coarse;
 mod coarsen;
 pub mod engine;
 pub mod extended;
+mod queue;
 pub mod rule;
 pub mod simple;
 pub mod sites;

@@ -24,7 +24,8 @@ impl Situation {
 /// A reason to subdivide hexagons.
 ///
 /// Both answers must be right for the tile itself, and may depend on hexagons
-/// up to [`Window::MARGIN`] steps away. More subdivided hexagons may make a
+/// up to [`Window::MARGIN`] steps away. Where there are neither subdivided nor
+/// occupied hexagons a rule asks for nothing: it is not even asked. More subdivided hexagons may make a
 /// rule ask for more or less; what it asked for once stays subdivided.
 pub trait Rule: Sync {
     /// A short name, for reports.

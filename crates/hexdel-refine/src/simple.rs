@@ -5,7 +5,7 @@
 //! two.
 
 use crate::rule::{Rule, Situation};
-use hexdel_grid::{Direction, Window};
+use hexdel_grid::Window;
 
 /// The rules of this module, in the paper's order.
 pub static RULES: &[&dyn Rule] = &[&Balance, &AdjacentOccupied, &OccupiedAmongFull, &OccupiedBesideFiner];
@@ -34,7 +34,7 @@ impl Rule for AdjacentOccupied {
 
     fn must_subdivide(&self, s: &Situation) -> Window {
         let occupied = s.view.occupied();
-        occupied & beside(occupied)
+        if occupied.is_empty() { occupied } else { occupied & occupied.others_within(1) }
     }
 }
 
@@ -63,11 +63,7 @@ impl Rule for OccupiedBesideFiner {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        s.view.occupied() & beside(s.view.subdivided)
+        let occupied = s.view.occupied();
+        if occupied.is_empty() { occupied } else { occupied & s.view.subdivided.others_within(1) }
     }
-}
-
-/// The hexagons with a neighbour in the set.
-fn beside(set: Window) -> Window {
-    Direction::ALL.into_iter().fold(Window::EMPTY, |all, d| all | set.at(d))
 }

@@ -15,6 +15,7 @@
 //! ```
 
 use crate::rule::{Rule, Situation};
+use hexdel_classify::relocate::relocation;
 use hexdel_classify::{Class, Classes, ExactBounds, Offset};
 use hexdel_grid::{Direction, Hex, Window};
 
@@ -33,8 +34,9 @@ impl Rule for TriangleRule {
         let c = &s.classes;
         let moved = c.moved1 | c.moved2 | c.moved4();
         let mut victims = Window::EMPTY;
+        // A pair one step beyond the tile may still have a victim within.
         for d in [0, 1, 2].map(Direction::new) {
-            let pairs = foreign_pairs(c, moved, d) & Window::with_margin(2);
+            let pairs = foreign_pairs(c, moved, d) & Window::with_margin(1);
             for h in pairs.iter() {
                 for third in [1, 5] {
                     // Counter-clockwise with the third corner on the left.
@@ -68,7 +70,7 @@ fn victim(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
     if corners.iter().any(|&at| c.moved3.contains(at)) {
         return None;
     }
-    let places = corners.map(|at| Offset::of(at) + c.relocation(at));
+    let places = corners.map(|at| Offset::of(at) + relocation(c.subdivided, at));
     if ExactBounds::EXTENDED.hold(places) {
         return None;
     }

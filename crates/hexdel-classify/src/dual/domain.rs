@@ -23,7 +23,7 @@ pub struct Domain {
 impl Domain {
     /// The hexagons of the base level that the patch holds, as seen from a
     /// tile whose first hexagon is `first`.
-    pub(super) fn window(&self, first: Hex) -> Window {
+    pub(super) fn window(self, first: Hex) -> Window {
         let radius = u64::from(self.radius);
         Window::FULL.iter().filter(|&at| (first + at).norm() <= radius).collect()
     }

@@ -1,18 +1,28 @@
 //! Which vertices and how many triangles each tile has.
 
-use super::domain::{self, Domain};
-use super::{DualError, star};
+use super::DualError;
+use super::brood::Brood;
+use super::domain::Domain;
+use super::star;
 use crate::class::Classes;
 use hexdel_geom::VertexId;
-use hexdel_grid::{Direction, Grid, Hex, TileId, Window};
+use hexdel_grid::{Direction, Grid, Hex, TileId};
 use rayon::prelude::*;
 
-/// The part of the mesh that a tile owns.
+/// What a tile is made of, as far as the dual asks, and the part of the mesh
+/// that it owns.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Block {
+    /// The full hexagons of the mesh.
+    pub(super) exists: u64,
     /// The places of the tile that are vertices: leaves, and semi-hexagons on
     /// which a `MovedCenter3` inserts a point.
     pub(super) vertices: u64,
+    /// The leaves that a template moves; may hold `three` without a vertex.
+    pub(super) moved: u64,
+    /// The `MovedCenter3`: stars replace the lattice triangles at them. None
+    /// without templates.
+    pub(super) three: u64,
     /// Id of the vertex at the lowest bit; the others follow in bit order.
     pub(super) first_vertex: u32,
     /// Triangles owned: lattice triangles by their lowest corner, stars by
@@ -20,42 +30,47 @@ pub(super) struct Block {
     pub(super) triangles: u32,
 }
 
-/// What a tile and its margin are made of, as far as the dual asks.
-pub(super) struct Sets {
-    /// Full hexagons of the level; right within a margin of three.
-    pub(super) exists: Window,
-    /// The classes of the level, or `None` where nothing is subdivided.
-    pub(super) classes: Option<Classes>,
-    /// Semi-hexagons on which a point is inserted; right within the tile.
-    pub(super) inserted: Window,
+impl Block {
+    /// The vertex at bit `bit`.
+    #[inline]
+    pub(super) fn vertex(&self, bit: u32) -> VertexId {
+        debug_assert!(self.vertices >> bit & 1 == 1, "no vertex at bit {bit}");
+        let rank = (self.vertices & ((1 << bit) - 1)).count_ones();
+        VertexId::new((self.first_vertex + rank) as usize)
+    }
 }
 
 /// Where each vertex and triangle of the mesh will stand.
 #[derive(Debug)]
 pub struct Layout<'a> {
     pub(super) grid: &'a Grid,
-    pub(super) domain: Domain,
-    /// Whether vertices are relocated by class.
-    pub(super) templates: bool,
-    /// A block per tile, by level and tile id; empty below the base level.
+    /// A block per tile, by level and tile id; no blocks below the base level.
     blocks: Vec<Vec<Block>>,
     /// Sum over all blocks.
     vertex_count: u64,
+    /// Sum over all blocks.
+    triangle_count: u64,
 }
 
 impl<'a> Layout<'a> {
-    /// Counts the vertices and triangles of all tiles.
-    pub(super) fn new(grid: &'a Grid, domain: Domain, templates: bool) -> Result<Self, DualError> {
-        let mut layout = Self { grid, domain, templates, blocks: Vec::new(), vertex_count: 0 };
-        for level in 0..grid.tiles().levels() as u8 {
-            let tiles = if level < domain.base_level { 0 } else { grid.tiles().level(level).len() };
-            let mut blocks: Vec<Block> =
-                (0..tiles).into_par_iter().map(|i| layout.block(level, TileId::new(i))).collect();
-            for block in &mut blocks {
+    /// Counts the vertices and triangles of all tiles, and makes the tiles that
+    /// hold a leaf but did not exist.
+    pub(super) fn new(grid: &'a mut Grid, domain: Domain, templates: bool) -> Result<Self, DualError> {
+        let blocks = surveyed(grid, domain, templates);
+        let mut layout = Self { grid, blocks, vertex_count: 0, triangle_count: 0 };
+        for level in 0..layout.blocks.len() {
+            let tiles = layout.blocks[level].len();
+            let walked = |i| {
+                let walks = layout.walks(level as u8, TileId::new(i));
+                walks.iter().map(|w| w.whole.count_ones() + 2 * w.split.count_ones()).sum()
+            };
+            let walked: Vec<u32> = (0..tiles).into_par_iter().map(walked).collect();
+            for (block, walked) in layout.blocks[level].iter_mut().zip(walked) {
+                block.triangles += walked;
                 block.first_vertex = layout.vertex_count as u32;
                 layout.vertex_count += u64::from(block.vertices.count_ones());
+                layout.triangle_count += u64::from(block.triangles);
             }
-            layout.blocks.push(blocks);
         }
         if layout.vertex_count > u64::from(u32::MAX) {
             return Err(DualError::TooManyVertices { count: layout.vertex_count });
@@ -65,7 +80,7 @@ impl<'a> Layout<'a> {
 
     /// How many triangles the mesh has.
     pub fn triangles(&self) -> u64 {
-        self.blocks.iter().flatten().map(|b| u64::from(b.triangles)).sum()
+        self.triangle_count
     }
 
     /// How many vertices the mesh has.
@@ -73,163 +88,153 @@ impl<'a> Layout<'a> {
         self.vertex_count
     }
 
-    /// The tiles that own part of the mesh, in the order of their vertices,
-    /// with how many vertices and triangles they own.
-    pub(super) fn owners(&self) -> impl Iterator<Item = (u8, TileId, Block)> {
+    /// The tiles that own part of the mesh, in the order of their vertices.
+    pub(super) fn owners(&self) -> impl Iterator<Item = (u8, TileId)> {
         self.blocks.iter().enumerate().flat_map(|(level, blocks)| {
             let owned = blocks.iter().enumerate().filter(|(_, b)| b.vertices != 0 || b.triangles != 0);
-            owned.map(move |(i, &b)| (level as u8, TileId::new(i), b))
+            owned.map(move |(i, _)| (level as u8, TileId::new(i)))
         })
     }
 
-    pub(super) fn block_of(&self, level: u8, id: TileId) -> Block {
-        self.blocks[usize::from(level)][id.index()]
-    }
-
-    /// The vertex at bit `bit` of a tile.
     #[inline]
-    pub(super) fn vertex(&self, level: u8, id: TileId, bit: u32) -> VertexId {
-        let block = &self.blocks[usize::from(level)][id.index()];
-        debug_assert!(block.vertices >> bit & 1 == 1, "no vertex at bit {bit} of {id:?}, level {level}");
-        let rank = (block.vertices & ((1 << bit) - 1)).count_ones();
-        VertexId::new((block.first_vertex + rank) as usize)
-    }
-
-    fn block(&self, level: u8, id: TileId) -> Block {
-        let sets = self.sets(level, id);
-        let subdivided = sets.classes.as_ref().map_or(Window::EMPTY, |c| c.subdivided);
-        let dropped = sets.classes.as_ref().map_or(Window::EMPTY, |c| self.single(c));
-        let vertices = sets.exists.without(subdivided | dropped) | sets.inserted;
-        Block { vertices: vertices.centre(), first_vertex: 0, triangles: self.count(&sets) }
-    }
-
-    /// The `MovedCenter3` whose own centre is no vertex.
-    pub(super) fn single(&self, classes: &Classes) -> Window {
-        if !self.templates || classes.moved3.is_empty() {
-            return Window::EMPTY;
-        }
-        let (before, after) = classes.in_run();
-        classes.moved3.without(before | after)
-    }
-
-    /// Reads a tile's sets.
-    pub(super) fn sets(&self, level: u8, id: TileId) -> Sets {
-        let subdivided = self.grid.tiles().window(level, id, |t| t.subdivided);
-        let classes = (!subdivided.is_empty()).then(|| Classes::of(subdivided));
-        if level == self.domain.base_level {
-            let exists = self.domain.window(self.grid.tiles().get(level, id).first());
-            return Sets { exists, classes, inserted: Window::EMPTY };
-        }
-        let (exists, inserted) = self.from_parent(level, id);
-        Sets { exists, classes, inserted }
-    }
-
-    /// What the subdivided hexagons one level coarser make exist in a tile:
-    /// full hexagons, and the inserted points.
-    fn from_parent(&self, level: u8, id: TileId) -> (Window, Window) {
-        let Some((parent, quadrant)) = self.grid.tiles().parent(level, id) else {
-            return (Window::EMPTY, Window::EMPTY);
-        };
-        let subdivided = self.grid.tiles().window(level - 1, parent, |t| t.subdivided);
-        let exists = children(subdivided, quadrant);
-        if !self.templates {
-            return (exists, Window::EMPTY);
-        }
-        let classes = Classes::of(subdivided);
-        if classes.moved3.is_empty() {
-            return (exists, Window::EMPTY);
-        }
-        let inserted = star::fins_with_vertex(&classes);
-        let inserted = Direction::ALL.into_iter().fold(Window::EMPTY, |set, d| {
-            set | Window::scaled(inserted[d.index()].cut(corner_of(quadrant))).moved(d)
-        });
-        (exists, inserted & Window::with_margin(0))
-    }
-
-    /// How many triangles a tile owns.
-    fn count(&self, sets: &Sets) -> u32 {
-        let mut count = 0;
-        for walk in self.walks(sets) {
-            count += walk.whole.count() + 2 * walk.split.count();
-        }
-        if let Some(classes) = sets.classes.as_ref().filter(|_| self.templates) {
-            count += star::count(classes, sets.exists);
-        }
-        count
+    pub(super) fn block(&self, level: u8, id: TileId) -> &Block {
+        &self.blocks[usize::from(level)][id.index()]
     }
 
     /// The lattice triangles that a tile owns, pointing up and down.
-    pub(super) fn walks(&self, sets: &Sets) -> [Walk; 2] {
-        let three = match &sets.classes {
-            Some(classes) if self.templates => classes.moved3,
-            _ => Window::EMPTY,
-        };
-        let subdivided = sets.classes.as_ref().map_or(Window::EMPTY, |c| c.subdivided);
+    pub(super) fn walks(&self, level: u8, id: TileId) -> [Walk; 2] {
+        let tiles = self.grid.tiles();
+        let own = self.block(level, id);
+        if own.exists == 0 {
+            return Walk::NONE;
+        }
+        // The tile itself, then east, north, north-west and west of it.
+        let [mut exists, mut subdivided, mut three] = [[0; 5]; 3];
+        for (i, (column, row)) in [(0, 0), (1, 0), (0, 1), (-1, 1), (-1, 0)].into_iter().enumerate() {
+            if let Some(there) = tiles.beside(level, id, column, row) {
+                let block = self.block(level, there);
+                exists[i] = block.exists;
+                three[i] = block.three;
+                subdivided[i] = tiles.get(level, there).subdivided;
+            }
+        }
+        let (exists, subdivided, three) = (Corners::of(exists), Corners::of(subdivided), Corners::of(three));
         [0, 1].map(|i| {
-            let second = Direction::new(i);
-            let third = Direction::new(i + 1);
-            let corners = |set: Window| (set, set.at(second), set.at(third));
-            let (e, f, g) = corners(sets.exists);
-            let (a, b, c) = corners(subdivided);
-            let (x, y, z) = corners(three);
-            let all = (e & f & g & Window::with_margin(0)).without(x | y | z);
+            let pick = |c: &Corners| (c.0[0], c.0[1 + i], c.0[2 + i]);
+            let ((e, f, g), (a, b, c), (x, y, z)) = (pick(&exists), pick(&subdivided), pick(&three));
+            let all = e & f & g & !(x | y | z);
             let two = a & b | b & c | c & a;
-            Walk { second, third, whole: all.without(two), split: all & two.without(a & b & c) }
+            Walk { down: i == 1, whole: all & !two, split: all & two & !(a & b & c) }
         })
     }
 }
 
-/// Lattice triangles `(h, h + second, h + third)`, by their corner `h`.
-pub(super) struct Walk {
-    pub(super) second: Direction,
-    pub(super) third: Direction,
-    /// At most one corner subdivided: one triangle each.
-    pub(super) whole: Window,
-    /// Two corners subdivided: two triangles each.
-    pub(super) split: Window,
-}
+/// A plane of a tile, and the same one step off in directions 0, 1 and 2.
+struct Corners([u64; 4]);
 
-/// The hexagons that exist in one quarter of a tile, one level finer: scaled
-/// centres, and those joined between two subdivided ones. Right for a margin
-/// of three.
-pub(super) fn children(subdivided: Window, quadrant: usize) -> Window {
-    let corner = corner_of(quadrant);
-    let mut exists = Window::scaled(subdivided.cut(corner));
-    for d in [0, 1, 2].map(Direction::new) {
-        let pairs = subdivided & subdivided.at(d);
-        exists |= Window::scaled(pairs.cut(corner)).moved(d);
+impl Corners {
+    /// From the planes of the tile itself, east, north, north-west and west.
+    #[inline]
+    fn of([own, east, north, north_west, west]: [u64; 5]) -> Self {
+        const FIRST_COLUMN: u64 = 0x0101_0101_0101_0101;
+        let westward = |own: u64, west: u64| own << 1 & !FIRST_COLUMN | west >> 7 & FIRST_COLUMN;
+        let d0 = own >> 1 & !(FIRST_COLUMN << 7) | (east & FIRST_COLUMN) << 7;
+        let d1 = own >> 8 | north << 56;
+        let d2 = westward(own, west) >> 8 | westward(north, north_west) << 56;
+        Self([own, d0, d1, d2])
     }
-    exists
 }
 
-/// Where, relative to a tile, the 8 x 8 hexagons start whose scaled centres
-/// fill the window of the tile's quarter: the quarter and two more on each
-/// side.
-fn corner_of(quadrant: usize) -> Hex {
-    Hex::new(4 * (quadrant as i64 & 1) - 2, 4 * (quadrant as i64 >> 1) - 2)
+/// Lattice triangles by their corner `h`: `(h, h + d0, h + d1)` pointing up,
+/// `(h, h + d1, h + d2)` pointing down.
+#[derive(Clone, Copy)]
+pub(super) struct Walk {
+    pub(super) down: bool,
+    /// At most one corner subdivided: one triangle each.
+    pub(super) whole: u64,
+    /// Two corners subdivided: two triangles each.
+    pub(super) split: u64,
 }
 
-/// Makes all tiles exist that hold a leaf, an inserted point or a triangle.
-pub(super) fn require_leaf_tiles(grid: &mut Grid, domain: Domain) {
+impl Walk {
+    const NONE: [Self; 2] =
+        [Self { down: false, whole: 0, split: 0 }, Self { down: true, whole: 0, split: 0 }];
+
+    pub(super) fn second(&self) -> Direction {
+        Direction::new(usize::from(self.down))
+    }
+
+    pub(super) fn third(&self) -> Direction {
+        Direction::new(1 + usize::from(self.down))
+    }
+}
+
+/// The blocks of all tiles, lattice triangles not counted yet.
+///
+/// Goes down the levels: what exists in a tile follows from the one above it.
+fn surveyed(grid: &mut Grid, domain: Domain, templates: bool) -> Vec<Vec<Block>> {
+    let mut blocks = vec![Vec::new(); usize::from(domain.base_level)];
+    let mut level = domain.base_level;
+    let mut current = patch(grid, domain);
+    while !current.is_empty() {
+        let survey = |(i, block): (usize, &mut Block)| {
+            let id = TileId::new(i);
+            survey(grid, level, id, block, templates).map(|brood| (id, brood))
+        };
+        let broods: Vec<_> = current.par_iter_mut().enumerate().filter_map(survey).collect();
+        blocks.push(std::mem::take(&mut current));
+        for (id, brood) in broods {
+            for quadrant in 0..4 {
+                let (exists, vertices) = (brood.exists[quadrant], brood.inserted[quadrant]);
+                if exists | vertices != 0 {
+                    let child = grid.tiles_mut().require_child(level, id, quadrant).index();
+                    if child >= current.len() {
+                        let tiles = grid.tiles().level(level + 1).len();
+                        current.resize(tiles, Block::default());
+                    }
+                    current[child] = Block { exists, vertices, ..Block::default() };
+                }
+            }
+        }
+        level += 1;
+    }
+    blocks
+}
+
+/// The tiles of the base level that the domain touches, made if need be.
+fn patch(grid: &mut Grid, domain: Domain) -> Vec<Block> {
     let radius = i64::from(domain.radius);
     for q in (-radius..=radius + 7).step_by(8) {
         for r in (-radius..=radius + 7).step_by(8) {
             grid.tiles_mut().require(domain.base_level, Hex::new(q, r));
         }
     }
-    let mut level = domain.base_level;
-    while usize::from(level) < grid.tiles().levels() {
-        for id in domain::tiles(grid, level) {
-            let subdivided = grid.tiles().window(level, id, |t| t.subdivided);
-            for quadrant in 0..4 {
-                // A semi-hexagon lies beside a full one: one step of dilation
-                // covers the inserted points.
-                let children = children(subdivided, quadrant).dilated().centre();
-                if children != 0 && grid.tiles().child(level, id, quadrant).is_none() {
-                    grid.tiles_mut().require_child(level, id, quadrant);
-                }
-            }
-        }
-        level += 1;
+    let tiles = grid.tiles().level(domain.base_level);
+    let exists = |t: &hexdel_grid::Tile| domain.window(t.first()).centre();
+    tiles.iter().map(|t| Block { exists: exists(t), ..Block::default() }).collect()
+}
+
+/// Completes a tile's block, of which `exists` and the inserted vertices are
+/// known, and returns what exists one level finer.
+fn survey(grid: &Grid, level: u8, id: TileId, block: &mut Block, templates: bool) -> Option<Brood> {
+    let tiles = grid.tiles();
+    block.vertices |= block.exists & !tiles.get(level, id).subdivided;
+    let subdivided = tiles.window(level, id, |t| t.subdivided);
+    if subdivided.is_empty() {
+        return None;
     }
+    let mut brood = Brood::of(subdivided);
+    if templates {
+        let classes = Classes::of(subdivided);
+        block.moved = (classes.finned() | classes.moved4()).centre() & block.exists;
+        if !classes.moved3.is_empty() {
+            let (before, after) = classes.in_run();
+            let single = classes.moved3.without(before | after);
+            block.three = classes.moved3.centre() & block.exists;
+            block.vertices &= !single.centre();
+            block.triangles = star::count(&classes, (before, after), block.exists);
+            brood.insert(&classes);
+        }
+    }
+    Some(brood)
 }

@@ -21,11 +21,15 @@
 //! |---|---|
 //! | [`domain`] | the hexagonal patch that the mesh covers |
 //! | [`layout`] | which vertices and how many triangles each tile has |
+//! | `brood` | what subdivided hexagons bring forth one level finer |
+//! | `fill` | tasks, each with its part of both arrays |
 //! | [`vertices`] | coordinates |
 //! | [`triangles`] | index triples |
 //! | [`star`] | the triangles around a three-finned hexagon |
 
+mod brood;
 pub mod domain;
+mod fill;
 pub mod layout;
 pub mod star;
 pub mod triangles;
@@ -90,6 +94,7 @@ pub enum DualError {
 
 /// Makes the dual mesh of a grid whose rules all hold.
 ///
+///
 /// Tiles for the leaves are added to the grid's store; its sets do not change.
 ///
 /// # Errors
@@ -108,16 +113,14 @@ pub fn extract(
     monitor: &dyn Monitor,
 ) -> Result<Dual, DualError> {
     check(monitor)?;
-    layout::require_leaf_tiles(grid, domain);
     let layout = Layout::new(grid, domain, relocation != Relocation::Occupied)?;
     let total = layout.triangles();
-    monitor.progress(Phase::Extract, total / 3, total);
+    monitor.progress(Phase::Extract, total / 4, total);
     check(monitor)?;
-    let mut vertices = vertices::fill(&layout);
-    let vertex_of_occupant = vertices::place_occupants(&layout, occupants, relocation, &mut vertices);
-    monitor.progress(Phase::Extract, total / 2, total);
+    let mut mesh = fill::mesh(&layout);
+    monitor.progress(Phase::Extract, total - total / 8, total);
     check(monitor)?;
-    let triangles = triangles::fill(&layout);
+    let vertex_of_occupant = vertices::place_occupants(&layout, occupants, relocation, &mut mesh.vertices);
     monitor.progress(Phase::Extract, total, total);
-    Ok(Dual { mesh: TriMesh { vertices, triangles }, vertex_of_occupant, domain })
+    Ok(Dual { mesh, vertex_of_occupant, domain })
 }

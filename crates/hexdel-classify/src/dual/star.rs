@@ -18,12 +18,10 @@
 //! `t` the top. A single one loses its centre; one in a run keeps it, and the
 //! point on the fin between two of a run is shared.
 
-use super::layout::Layout;
-use crate::class::Classes;
+use crate::class::{Classes, middle_fin};
 use crate::exact::Offset;
 use crate::relocate::star_points;
-use hexdel_geom::VertexId;
-use hexdel_grid::{Direction, Hex, TileId, Window};
+use hexdel_grid::{Direction, Hex, Window};
 
 /// A `MovedCenter3` and its place in a run.
 #[derive(Clone, Copy)]
@@ -38,14 +36,11 @@ pub(super) struct Star {
 
 impl Star {
     /// The star of the `MovedCenter3` at `at`; `None` for any other hexagon.
-    pub(super) fn of(classes: &Classes, at: Hex) -> Option<Self> {
-        let middle = Direction::ALL.into_iter().find(|d| classes.middle[d.index()].contains(at))?;
-        let is_middle = |d: Direction, at| classes.middle[d.index()].contains(at);
-        Some(Self {
-            middle,
-            before: is_middle(middle.turned(5), at.neighbour(middle.turned(4))),
-            after: is_middle(middle.turned(1), at.neighbour(middle.turned(2))),
-        })
+    pub(super) fn of(subdivided: Window, at: Hex) -> Option<Self> {
+        let middle = middle_fin(subdivided, at)?;
+        let goes_on =
+            |turn, by| middle_fin(subdivided, at.neighbour(middle.turned(by))) == Some(middle.turned(turn));
+        Some(Self { middle, before: goes_on(5, 4), after: goes_on(1, 2) })
     }
 
     fn single(self) -> bool {
@@ -64,55 +59,39 @@ pub(super) fn fins_with_vertex(classes: &Classes) -> [Window; 6] {
 }
 
 /// How many triangles the stars of a tile have.
-pub(super) fn count(classes: &Classes, exists: Window) -> u32 {
-    let three = classes.moved3 & exists & Window::with_margin(0);
-    if three.is_empty() {
-        return 0;
-    }
-    let (before, after) = classes.in_run();
-    let single = three.without(before | after);
-    let run = three.without(single);
+pub(super) fn count(classes: &Classes, (before, after): (Window, Window), exists: u64) -> u32 {
+    let three = classes.moved3.centre() & exists;
+    let (before, after) = (before.centre(), after.centre());
+    let run = three & (before | after);
+    let single = (three & !run).count_ones();
+    let (first, last) = ((run & !before).count_ones(), (run & !after).count_ones());
     // Six towards the fins, always. Single: two at the ends and four inside. In
     // a run: one at each end of the run, and six around each centre, two of
     // which belong to the one before.
-    let ends = run.without(before).count() + run.without(after).count();
-    12 * single.count() + (6 + 4) * run.count() + 2 * run.without(before).count() + ends
+    12 * single + (6 + 4) * run.count_ones() + 2 * first + first + last
 }
 
-/// Where the point lies that is inserted at place `at` of a tile, relative to
-/// the tile's first hexagon.
-pub(super) fn inserted_at(layout: &Layout, level: u8, id: TileId, at: Hex) -> Offset {
-    let tiles = layout.grid.tiles();
-    let (parent, _) = tiles.parent(level, id).expect("points are inserted below the base level");
-    let classes = Classes::of(tiles.window(level - 1, parent, |t| t.subdivided));
-    let first = tiles.get(level, id).first();
-    let coarser = tiles.get(level - 1, parent).first();
-    let (a, b) = (first + at).parents();
-    let b = b.expect("a semi-hexagon has two parents");
-    for (hex, fin) in [(a, b), (b, a)] {
-        if let Some(star) = Star::of(&classes, hex - coarser) {
-            let points = star_points(star.middle, star.before, star.after);
-            let i = (0..3).find(|&i| star.middle.turned(5 + i).step() == fin - hex);
-            let p = points[i.expect("the point lies on a fin")];
-            let scaled = Offset { q: 2 * p.q, r: 2 * p.r };
-            return Offset::of(hex.scaled() - first) + scaled;
-        }
-    }
-    unreachable!("no three-finned hexagon at {at:?} of {id:?}, level {level}")
+/// Where the point lies that is inserted between hexagon `hex` and its fin
+/// `fin`, relative to `hex`; `None` if `hex` is no `MovedCenter3`.
+pub(super) fn point_on_fin(subdivided: Window, hex: Hex, fin: Hex) -> Option<Offset> {
+    let star = Star::of(subdivided, hex)?;
+    let points = star_points(star.middle, star.before, star.after);
+    let i = (0..3).find(|&i| star.middle.turned(5 + i).step() == fin - hex)?;
+    Some(points[i])
 }
 
 /// Ids of the vertices around a star.
 pub(super) trait Corners {
     /// The leaf at `at`, relative to the tile's first hexagon.
-    fn leaf(&self, at: Hex) -> VertexId;
+    fn leaf(&self, at: Hex) -> u32;
 
     /// The vertex at `at` one level finer, relative to twice the tile's first
     /// hexagon.
-    fn finer(&self, at: Hex) -> VertexId;
+    fn finer(&self, at: Hex) -> u32;
 }
 
 /// Emits the triangles of the star at `at`.
-pub(super) fn emit(star: Star, at: Hex, corners: &impl Corners, mut push: impl FnMut([VertexId; 3])) {
+pub(super) fn emit(star: Star, at: Hex, corners: &impl Corners, mut push: impl FnMut([u32; 3])) {
     let d = |by: usize| star.middle.turned(by).step();
     let fins = [5, 0, 1].map(|by| at + d(by));
     let a = fins.map(|n| corners.finer(n.scaled()));

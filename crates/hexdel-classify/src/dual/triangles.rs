@@ -1,87 +1,89 @@
 //! Index triples.
 
-use super::layout::{Layout, Sets, Walk};
+use super::layout::{Layout, Walk};
 use super::star::{self, Corners, Star};
 use hexdel_geom::VertexId;
+use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
-use hexdel_grid::{Hex, TileId, Window};
-use rayon::prelude::*;
+use hexdel_grid::{Hex, TileId};
 
-/// Tiles filled by one task: enough work to be worth handing out.
-const TILES_PER_TASK: usize = 256;
-
-/// Emits every triangle, tile by tile.
-pub(super) fn fill(layout: &Layout) -> Vec<[VertexId; 3]> {
-    let unset = [VertexId::new(0); 3];
-    let mut triangles = vec![unset; layout.triangles() as usize];
-    let owners: Vec<_> = layout.owners().collect();
-    let mut rest = triangles.as_mut_slice();
-    let tasks: Vec<_> = owners
-        .chunks(TILES_PER_TASK)
-        .map(|tiles| {
-            let count: u32 = tiles.iter().map(|(_, _, b)| b.triangles).sum();
-            let (mine, others) = std::mem::take(&mut rest).split_at_mut(count as usize);
-            rest = others;
-            (tiles, mine)
-        })
-        .collect();
-    tasks.into_par_iter().for_each(|(tiles, out)| {
-        let mut places = out.iter_mut();
-        for &(level, id, block) in tiles {
-            let mut count = 0;
-            fill_tile(layout, level, id, |t| {
-                count += 1;
-                *places.next().expect("as many triangles are emitted as were counted") = t;
-            });
-            debug_assert_eq!(count, block.triangles, "{id:?} of level {level}");
+/// Emits the triangles that a tile owns.
+pub(super) fn fill_tile(layout: &Layout, level: u8, id: TileId, out: &mut [[u32; 3]]) {
+    if out.is_empty() {
+        return;
+    }
+    let tile = OwnerTile::new(layout, level, id);
+    let mut out = Emitter { out, count: 0 };
+    for walk in layout.walks(level, id) {
+        emit_whole(&tile, &walk, &mut out);
+        emit_split(&tile, &walk, &mut out);
+    }
+    let three = layout.block(level, id).three;
+    if three != 0 {
+        let subdivided = layout.grid.tiles().window(level, id, |t| t.subdivided);
+        for at in ones(three).map(hex_of) {
+            let star = Star::of(subdivided, at).expect("a three-finned hexagon has a middle fin");
+            star::emit(star, at, &tile, |t| out.push(t));
         }
-    });
-    triangles
+    }
+    debug_assert_eq!(out.count, out.out.len(), "{id:?} of level {level}");
 }
 
-fn fill_tile(layout: &Layout, level: u8, id: TileId, mut push: impl FnMut([VertexId; 3])) {
-    let sets = layout.sets(level, id);
-    let tile = OwnerTile { layout, level, id };
-    let subdivided = sets.classes.as_ref().map_or(Window::EMPTY, |c| c.subdivided);
-    for walk in layout.walks(&sets) {
-        emit_whole(&tile, &walk, subdivided, &mut push);
-        emit_split(&tile, &walk, subdivided, &mut push);
+/// A tile's part of the array, and how much of it is filled.
+struct Emitter<'a> {
+    out: &'a mut [[u32; 3]],
+    count: usize,
+}
+
+impl Emitter<'_> {
+    #[inline]
+    fn push(&mut self, corners: [u32; 3]) {
+        self.out[self.count] = corners;
+        self.count += 1;
     }
-    emit_stars(&tile, &sets, &mut push);
 }
 
 /// Lattice triangles with at most one subdivided corner.
-fn emit_whole(tile: &OwnerTile, walk: &Walk, subdivided: Window, push: &mut impl FnMut([VertexId; 3])) {
-    for bit in ones(walk.whole.centre()) {
-        let h = hexdel_grid::grid::hex_of(bit);
-        let corners = [h, h.neighbour(walk.second), h.neighbour(walk.third)];
-        push(corners.map(|at| tile.corner(at, subdivided)));
+fn emit_whole(tile: &OwnerTile, walk: &Walk, out: &mut Emitter) {
+    let (second, third) = if walk.down { (ROW, ROW - 1) } else { (1, ROW) };
+    for bit in ones(walk.whole) {
+        let i = place(hex_of(bit));
+        let mut corners = [tile.ids[i], tile.ids[i + second], tile.ids[i + third]];
+        if corners.contains(&NONE) {
+            let h = hex_of(bit);
+            let at = [h, h.neighbour(walk.second()), h.neighbour(walk.third())];
+            for (corner, at) in corners.iter_mut().zip(at).filter(|(corner, _)| **corner == NONE) {
+                *corner = tile.finer(at.scaled());
+            }
+        }
+        out.push(corners);
     }
 }
 
 /// Lattice triangles with two subdivided corners, split at the hexagon joined
 /// between them.
-fn emit_split(tile: &OwnerTile, walk: &Walk, subdivided: Window, push: &mut impl FnMut([VertexId; 3])) {
-    for bit in ones(walk.split.centre()) {
-        let at = hexdel_grid::grid::hex_of(bit);
-        let corners = [at, at.neighbour(walk.second), at.neighbour(walk.third)];
-        let whole = (0..3).find(|&i| !subdivided.contains(corners[i])).expect("one corner is a leaf");
+fn emit_split(tile: &OwnerTile, walk: &Walk, out: &mut Emitter) {
+    for at in ones(walk.split).map(hex_of) {
+        let corners = [at, at.neighbour(walk.second()), at.neighbour(walk.third())];
+        let whole = (0..3).find(|&i| tile.ids[place(corners[i])] != NONE).expect("one corner is a leaf");
         let [h, a, b] = [0, 1, 2].map(|i| corners[(whole + i) % 3]);
         let (leaf, joined) = (tile.leaf(h), tile.finer(a + b));
-        push([leaf, tile.finer(a.scaled()), joined]);
-        push([leaf, joined, tile.finer(b.scaled())]);
+        out.push([leaf, tile.finer(a.scaled()), joined]);
+        out.push([leaf, joined, tile.finer(b.scaled())]);
     }
 }
 
-fn emit_stars(tile: &OwnerTile, sets: &Sets, push: &mut impl FnMut([VertexId; 3])) {
-    let Some(classes) = sets.classes.as_ref().filter(|_| tile.layout.templates) else {
-        return;
-    };
-    for bit in ones((classes.moved3 & sets.exists).centre()) {
-        let at = hexdel_grid::grid::hex_of(bit);
-        let star = Star::of(classes, at).expect("a three-finned hexagon has a middle fin");
-        star::emit(star, at, tile, &mut *push);
-    }
+/// Places in a row of [`OwnerTile::ids`]: the tile and one hexagon beyond it
+/// on each side, made a power of two.
+const ROW: usize = 16;
+
+/// No leaf.
+const NONE: u32 = u32::MAX;
+
+/// Index in [`OwnerTile::ids`].
+#[inline]
+fn place(at: Hex) -> usize {
+    ((at.r + 1) * ROW as i64 + at.q + 1) as usize
 }
 
 /// A tile whose triangles are emitted.
@@ -89,41 +91,57 @@ struct OwnerTile<'a> {
     layout: &'a Layout<'a>,
     level: u8,
     id: TileId,
+    /// The vertices of the tile and of one hexagon around it; [`NONE`] where
+    /// there is none. Vertices inserted on semi-hexagons are there, too.
+    ids: [u32; 10 * ROW],
 }
 
-impl OwnerTile<'_> {
-    /// The vertex that stands for a corner of a lattice triangle.
-    #[inline]
-    fn corner(&self, at: Hex, subdivided: Window) -> VertexId {
-        if subdivided.contains(at) { self.finer(at.scaled()) } else { self.leaf(at) }
-    }
-
-    /// The tile that lies `at` hexagons from this one's first.
-    #[inline]
-    fn beside(&self, at: Hex) -> TileId {
-        let tiles = self.layout.grid.tiles();
-        tiles.beside(self.level, self.id, at.q >> 3, at.r >> 3).expect("corners of triangles lie in tiles")
+impl<'a> OwnerTile<'a> {
+    fn new(layout: &'a Layout<'a>, level: u8, id: TileId) -> Self {
+        const WEST: u64 = 0x0101_0101_0101_0101;
+        const COLUMNS: [u64; 3] = [WEST << 7, u64::MAX, WEST];
+        const ROWS: [u64; 3] = [0xff << 56, u64::MAX, 0xff];
+        let mut ids = [NONE; 10 * ROW];
+        for row in -1..=1 {
+            for column in -1..=1 {
+                let Some(there) = layout.grid.tiles().beside(level, id, column, row) else {
+                    continue;
+                };
+                let block = layout.block(level, there);
+                let seen = block.vertices & COLUMNS[(column + 1) as usize] & ROWS[(row + 1) as usize];
+                let corner = Hex::new(8 * column, 8 * row);
+                if (column, row) == (0, 0) {
+                    for (bit, vertex) in ones(seen).zip(block.first_vertex..) {
+                        ids[place(hex_of(bit))] = vertex;
+                    }
+                } else {
+                    for bit in ones(seen) {
+                        ids[place(corner + hex_of(bit))] = block.vertex(bit).index() as u32;
+                    }
+                }
+            }
+        }
+        Self { layout, level, id, ids }
     }
 }
 
 impl Corners for OwnerTile<'_> {
     #[inline]
-    fn leaf(&self, at: Hex) -> VertexId {
-        let bit = 8 * (at.r & 7) + (at.q & 7);
-        self.layout.vertex(self.level, self.beside(at), bit as u32)
+    fn leaf(&self, at: Hex) -> u32 {
+        self.ids[place(at)]
     }
 
     #[inline]
-    fn finer(&self, at: Hex) -> VertexId {
+    fn finer(&self, at: Hex) -> u32 {
+        let tiles = self.layout.grid.tiles();
         let coarse = Hex::new(at.q >> 1, at.r >> 1);
         let quadrant = (coarse.r >> 2 & 1) * 2 + (coarse.q >> 2 & 1);
-        let child = self
-            .layout
-            .grid
-            .tiles()
-            .child(self.level, self.beside(coarse), quadrant as usize)
+        let child = tiles
+            .beside(self.level, self.id, coarse.q >> 3, coarse.r >> 3)
+            .and_then(|tile| tiles.child(self.level, tile, quadrant as usize))
             .expect("finer corners of triangles lie in tiles");
         let bit = 8 * (at.r & 7) + (at.q & 7);
-        self.layout.vertex(self.level + 1, child, bit as u32)
+        let vertex: VertexId = self.layout.block(self.level + 1, child).vertex(bit as u32);
+        vertex.index() as u32
     }
 }
