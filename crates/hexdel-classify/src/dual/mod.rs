@@ -94,7 +94,6 @@ pub enum DualError {
 
 /// Makes the dual mesh of a grid whose rules all hold.
 ///
-///
 /// Tiles for the leaves are added to the grid's store; its sets do not change.
 ///
 /// # Errors
