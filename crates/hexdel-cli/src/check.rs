@@ -13,11 +13,11 @@ use std::path::PathBuf;
 const SHOWN: usize = 10;
 
 /// Check a mesh: angles, Delaunay, topology, input points
-///
-/// Exits with 1 if the mesh does not hold. Orientation and the Delaunay
-/// property are decided exactly. The default bounds are those of `hexdel mesh`.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  \
+#[command(after_help = "\
+    The default bounds are those of `hexdel mesh`. The Delaunay property and\n\
+    orientations are decided exactly. Exits with 1 if the mesh does not hold.\n\n\
+    Examples:\n  \
     hexdel check mesh.ele --input points.node\n  \
     hexdel check mesh.ele --min-angle 20 --max-angle 140 --json")]
 pub(crate) struct Args {
@@ -85,44 +85,48 @@ fn readable(name: &str, c: &Certificate) -> String {
     text
 }
 
+/// What was asked for, each with whether it is so.
 fn findings(c: &Certificate) -> Vec<(bool, String)> {
     let broken = c.malformed + c.not_finite + c.not_counter_clockwise;
+    // A triangle the wrong way round has negative angles.
+    let beyond = c.out_of_bounds + c.not_counter_clockwise;
+    let angles = format!("angles {:.4} to {:.4}", c.min_angle_deg, c.max_angle_deg);
+    let bounds = format!("{:.4} to {:.4} degrees", c.bounds.min_deg(), c.bounds.max_deg());
     let mut findings = vec![
-        (
-            c.out_of_bounds == 0,
-            format!(
-                "angles {:.4} to {:.4} degrees; {} triangles outside {:.4} to {:.4}",
-                c.min_angle_deg,
-                c.max_angle_deg,
-                c.out_of_bounds,
-                c.bounds.min_deg(),
-                c.bounds.max_deg()
-            ),
+        finding(
+            beyond == 0,
+            format!("{angles}, within {bounds}"),
+            format!("{angles}: {beyond} triangles not within {bounds}"),
         ),
-        (c.delaunay, format!("Delaunay; {} edges are not", c.non_delaunay_edges)),
-        (broken == 0, format!("counter-clockwise; {broken} triangles are not, or are no triangles")),
-        (
+        finding(
+            broken == 0,
+            "all counter-clockwise",
+            format!("{broken} triangles flat, clockwise or broken"),
+        ),
+        finding(c.delaunay, "Delaunay", format!("not Delaunay: {} edges", c.non_delaunay_edges)),
+        finding(
             c.manifold,
+            "manifold",
             format!(
-                "manifold; {} edges repeated, {} vertices branching, {} unused",
+                "not manifold: {} edges repeated, {} vertices branching, {} unused",
                 c.repeated_edges, c.branching_vertices, c.unused_vertices
             ),
         ),
-        (
+        finding(
             c.disk,
+            "one disk",
             format!(
-                "one disk; {} boundary loops, Euler characteristic {}",
+                "not one disk: {} boundary loops, Euler characteristic {}",
                 c.boundary_loops, c.euler_characteristic
             ),
         ),
     ];
     if c.rounding_limited > 0 {
+        let excess = c.worst_rounding_excess_deg;
+        let n = c.rounding_limited;
         findings.push((
             true,
-            format!(
-                "{} triangles are past a bound by no more than rounding, at most {:.1e} degrees",
-                c.rounding_limited, c.worst_rounding_excess_deg
-            ),
+            format!("{n} triangles past a bound by rounding alone, at most {excess:.1e} degrees"),
         ));
     }
     if c.inputs > 0 {
@@ -130,6 +134,10 @@ fn findings(c: &Certificate) -> Vec<(bool, String)> {
         findings.push((kept, format!("{} of {} input points are vertices", c.inputs_kept, c.inputs)));
     }
     findings
+}
+
+fn finding(good: bool, yes: impl Into<String>, no: impl Into<String>) -> (bool, String) {
+    (good, if good { yes.into() } else { no.into() })
 }
 
 /// A violation in words, ids counted from 0.

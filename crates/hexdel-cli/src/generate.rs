@@ -13,10 +13,10 @@ use std::path::PathBuf;
 const MAX_POINTS: u64 = 100_000_000;
 
 /// Make points to test with
-///
-/// The same kind, number and seed give the same file everywhere.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  hexdel generate spiral 1000 --seed 7 -o spiral.node")]
+#[command(after_help = "\
+    The same kind, number and seed give the same file everywhere.\n\n\
+    Example:\n  hexdel generate spiral 1000 --seed 7 -o spiral.node")]
 pub(crate) struct Args {
     /// What the points are like
     #[arg(value_name = "KIND", value_parser = kinds())]

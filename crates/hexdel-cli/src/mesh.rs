@@ -11,12 +11,13 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// Mesh points: every angle between 43.9 and 90 degrees, Delaunay, certified
-///
-/// Input: .node, .poly (points only so far), .csv, .tsv, .xyz, .txt, .pts.
-/// Output, by extension: .ele (with its .node), .vtu, .ron, and pictures, .svg.
-/// Missing folders are made. All files are written or none.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  \
+#[command(after_help = "\
+    Formats, by extension:\n  \
+    input   .node, .poly (points only so far), .csv, .tsv, .xyz, .txt, .pts\n  \
+    output  .ele (with the .node beside it), .vtu, .ron, and pictures, .svg\n\
+    All files are written or none; missing folders are made.\n\n\
+    Examples:\n  \
     hexdel mesh cities.csv -o cities.ele -o cities.svg --grid\n  \
     hexdel mesh cities.csv -o cities.vtu --method simple --report cities.json")]
 pub(crate) struct Args {
@@ -25,16 +26,16 @@ pub(crate) struct Args {
     /// File to write; may be given several times
     #[arg(short, long, value_name = "FILE", required_unless_present = "report")]
     output: Vec<PathBuf>,
-    /// How the mesh is made
+    /// 43.9 to 90 degrees, or 30 to 120 with a quarter of the triangles
     #[arg(long, value_enum, default_value_t = MethodName::Templates)]
     method: MethodName,
-    /// Circumradius of the hexagon that is meshed [default: the smallest possible]
+    /// Circumradius of the hexagon to mesh [default: the smallest possible]
     #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
     /// Do not merge hexagons again where all rules allow it
     #[arg(long)]
     no_coarsening: bool,
-    /// Threads to work with; the mesh does not depend on it [default: all]
+    /// Threads to use; the mesh does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Write the figures of the mesh as JSON
@@ -50,9 +51,7 @@ pub(crate) struct Args {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
-    /// 43.9 to 90 degrees
     Templates,
-    /// 30 to 120 degrees, a quarter of the triangles
     Simple,
 }
 

@@ -193,7 +193,12 @@ fn check_plain(file: &Path) -> Result<(), Failure> {
 }
 
 fn temporary_in(folder: &Path) -> io::Result<TempDir> {
-    Builder::new().prefix(".hexdel-").tempdir_in(folder)
+    Builder::new().prefix(".hexdel-").tempdir_in(folder).map_err(|error| {
+        // What the system says alone, without a name that means nothing to
+        // the reader.
+        let system = error.get_ref().and_then(|e| e.source()).and_then(|e| e.downcast_ref::<io::Error>());
+        system.and_then(io::Error::raw_os_error).map_or(error.kind().into(), io::Error::from_raw_os_error)
+    })
 }
 
 /// Like [`Path::exists`], the empty path being the current folder.
