@@ -1,5 +1,6 @@
 //! Development tasks: `cargo xtask <task>`.
 
+mod ci;
 mod tidy;
 
 use clap::{Parser, Subcommand};
@@ -14,6 +15,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Task {
+    /// Run all that must pass: format, lints, structure, tests
+    Ci,
     /// Check the structure of the workspace: which crate may depend on which,
     /// lengths of files, headers of modules
     Tidy,
@@ -24,6 +27,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().task {
+        Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
     };
     match outcome {

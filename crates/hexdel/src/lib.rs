@@ -29,6 +29,11 @@
 //! | [`refine`] | the rules engine |
 //! | [`io`] | formats and pictures |
 
+/// The examples of the README, so that they stay true.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
+
 pub mod error;
 pub mod generate;
 pub mod mesher;
