@@ -69,7 +69,8 @@ impl View {
 
     /// Reads a tile and its margin.
     pub fn of(grid: &Grid, level: u8, id: TileId) -> Self {
-        let planes = |t: &hexdel_grid::Tile| [t.subdivided, t.marks[Self::OCCUPIED1], t.marks[Self::OCCUPIED2]];
+        let planes =
+            |t: &hexdel_grid::Tile| [t.subdivided, t.marks[Self::OCCUPIED1], t.marks[Self::OCCUPIED2]];
         let [subdivided, occupied1, occupied2] = grid.tiles().windows(level, id, planes);
         Self { subdivided, occupied1, occupied2 }
     }

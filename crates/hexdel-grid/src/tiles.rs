@@ -235,9 +235,11 @@ impl Tiles {
                 }
             }
         }
-        std::array::from_fn(|plane| {
-            if any[plane] == 0 { Window::EMPTY } else { Window::gather(&bits[plane]) }
-        })
+        std::array::from_fn(
+            |plane| {
+                if any[plane] == 0 { Window::EMPTY } else { Window::gather(&bits[plane]) }
+            },
+        )
     }
 
     /// Makes the tiles exist whose window reaches one of `bits`, those within

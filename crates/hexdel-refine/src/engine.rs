@@ -16,8 +16,8 @@
 //! proportion to what changes: near-linear in the output.
 
 use crate::coarsen;
-use crate::rule::{RuleSet, Situation};
 use crate::queue::Queue;
+use crate::rule::{RuleSet, Situation};
 use crate::sites::{Site, Sites};
 use hexdel_classify::{Occupant, View};
 use hexdel_geom::DVec2;
@@ -62,6 +62,9 @@ pub struct Refiner {
     /// Per level: tiles whose demands on the next coarser level may have
     /// grown.
     unprojected: Vec<Queue>,
+    /// Per level: tiles with a neighbour that changed since the level was last
+    /// looked over for what can be merged; all of `unprojected` are in here.
+    loose: Vec<Queue>,
     /// Tiles asked so far, for progress.
     asked: u64,
 }
@@ -80,6 +83,7 @@ impl Refiner {
             sites: Sites::default(),
             open: Vec::new(),
             unprojected: Vec::new(),
+            loose: Vec::new(),
             asked: 0,
         }
     }
@@ -217,7 +221,7 @@ impl Refiner {
     /// Merges what a closed level has to spare.
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
-            let tiles: Vec<_> = self.unprojected[usize::from(level)].iter().collect();
+            let tiles = self.loose[usize::from(level)].take();
             coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
         }
     }
@@ -280,7 +284,11 @@ impl Refiner {
         let lowered: Vec<_> = moving.par_iter().with_min_len(TILES_PER_TASK).map(lower).collect();
         for (&id, site) in moving.iter().zip(lowered) {
             if site.level >= levels {
-                return Err(RefineError::TooClose { site: self.sites.index_of(id), point: site.point, levels });
+                return Err(RefineError::TooClose {
+                    site: self.sites.index_of(id),
+                    point: site.point,
+                    levels,
+                });
             }
             *self.sites.get_mut(id) = site;
         }
@@ -327,11 +335,15 @@ impl Refiner {
         if k >= self.open.len() {
             self.open.resize_with(k + 1, Queue::default);
             self.unprojected.resize_with(k + 1, Queue::default);
+            self.loose.resize_with(k + 1, Queue::default);
         }
-        let open = &mut self.open[k];
-        self.grid.tiles_mut().require_margin(level, id, bits, |tile| open.push(tile));
+        let (open, unprojected) = (&mut self.open[k], &mut self.unprojected[k]);
+        self.grid.tiles_mut().require_margin(level, id, bits, |tile| {
+            open.push(tile);
+            unprojected.push(tile);
+        });
         for tile in self.grid.tiles().around(level, id) {
-            self.unprojected[k].push(tile);
+            self.loose[k].push(tile);
         }
     }
 
