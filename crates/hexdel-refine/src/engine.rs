@@ -110,6 +110,12 @@ impl Refiner {
         self.sites.occupants()
     }
 
+    /// How many times the rules were asked about a tile so far, or what it
+    /// demands of the next coarser level.
+    pub fn tiles_asked(&self) -> u64 {
+        self.asked
+    }
+
     /// Adds points and refines until every rule holds again.
     ///
     /// The points must be distinct and finite. Adding them in batches gives a
