@@ -1,5 +1,6 @@
 //! Development tasks: `cargo xtask <task>`.
 
+mod bench;
 mod ci;
 mod tidy;
 
@@ -20,6 +21,8 @@ enum Task {
     /// Check the structure of the workspace: which crate may depend on which,
     /// lengths of files, headers of modules
     Tidy,
+    /// Measure time and memory, side by side with spade
+    Bench(bench::Args),
 }
 
 /// What a task returns: nothing, or what went wrong.
@@ -29,6 +32,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().task {
         Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
+        Task::Bench(args) => bench::run(&args),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

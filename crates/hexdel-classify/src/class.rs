@@ -114,16 +114,17 @@ pub struct Classes {
     pub under: [Window; 6],
 }
 
-impl Classes {
-    /// Classifies all hexagons of a window by their fins.
-    ///
-    /// Hexagons that do not exist count as plain ones: no rule depends on
-    /// them, since whatever has fins has six neighbours.
-    pub fn of(subdivided: Window) -> Self {
-        if subdivided.is_empty() {
-            return Self::default();
-        }
-        let fins = Direction::ALL.map(|d| subdivided.at(d).without(subdivided));
+/// Hexagons by how their fins follow each other.
+struct Rows {
+    moved1: Window,
+    moved2: Window,
+    moved3: Window,
+    irregular: Window,
+}
+
+impl Rows {
+    #[inline]
+    fn of(fins: &[Window; 6]) -> Self {
         let f = |d: usize| fins[d % 6];
         // starts: fins with none before them, counter-clockwise. Exactly one
         // start means that all fins are consecutive (six fins have none).
@@ -139,17 +140,65 @@ impl Classes {
             three |= triple;
             four |= triple & f(d + 3);
         }
-        let any = fins.into_iter().fold(Window::EMPTY, |a, b| a | b);
+        let any = fins.iter().fold(Window::EMPTY, |a, b| a | *b);
         let row = one.without(more);
         let moved1 = row.without(two_in_row);
         let moved2 = (row & two_in_row).without(three);
         let moved3 = (row & three).without(four);
+        let irregular = any.without(moved1 | moved2 | moved3);
+        Self { moved1, moved2, moved3, irregular }
+    }
+}
+
+/// For each direction the hexagons that have a fin there.
+#[inline]
+fn fins(subdivided: Window) -> [Window; 6] {
+    Direction::ALL.map(|d| subdivided.at(d).without(subdivided))
+}
+
+/// The hexagons of class [`Class::Subdivide`]: [`Classes::irregular`], alone.
+pub fn irregular(subdivided: Window) -> Window {
+    Rows::of(&fins(subdivided)).irregular
+}
+
+/// Whether fins, bit `i` for direction `i`, are in a row of at most three, or
+/// none.
+#[inline]
+pub const fn is_regular(fins: u8) -> bool {
+    // A bit for each of the 64 arrangements.
+    const REGULAR: u64 = {
+        let (mut set, mut d) = (1, 0);
+        while d < 6 {
+            let mut length = 1;
+            while length <= 3 {
+                let row = (1_u32 << length) - 1;
+                set |= 1_u64 << ((row << d | row << d >> 6) & 63);
+                length += 1;
+            }
+            d += 1;
+        }
+        set
+    };
+    REGULAR >> (fins & 63) & 1 == 1
+}
+
+impl Classes {
+    /// Classifies all hexagons of a window by their fins.
+    ///
+    /// Hexagons that do not exist count as plain ones: no rule depends on
+    /// them, since whatever has fins has six neighbours.
+    pub fn of(subdivided: Window) -> Self {
+        if subdivided.is_empty() {
+            return Self::default();
+        }
+        let fins = fins(subdivided);
+        let Rows { moved1, moved2, moved3, irregular } = Rows::of(&fins);
+        let f = |d: usize| fins[d % 6];
         let (mut middle, mut under) = ([Window::EMPTY; 6], [Window::EMPTY; 6]);
         if !moved3.is_empty() {
             middle = std::array::from_fn(|d| moved3 & f(d + 5) & f(d) & f(d + 1));
             under = Direction::ALL.map(|d| Window::at(middle[d.index()], d));
         }
-        let irregular = any.without(moved1 | moved2 | moved3);
         Self { subdivided, fins, moved1, moved2, moved3, irregular, middle, under }
     }
 
@@ -261,6 +310,8 @@ mod tests {
                 let classes = Classes::of(set);
                 assert_eq!(classes.class_of(centre), by_table(fins), "fins {fins:06b}");
                 assert_eq!(classes.fins_of(centre), fins);
+                assert_eq!(is_regular(fins), by_table(fins) != Class::Subdivide);
+                assert_eq!(irregular(set).contains(centre), !is_regular(fins));
                 let middle = Direction::ALL.into_iter().find(|d| classes.middle[d.index()].contains(centre));
                 assert_eq!(middle_fin(set, centre), middle);
             }

@@ -62,6 +62,9 @@ pub struct Refiner {
     /// Per level: tiles whose demands on the next coarser level may have
     /// grown.
     unprojected: Vec<Queue>,
+    /// Per level: tiles with a neighbour that changed since the level was last
+    /// looked over for what can be merged; all of `unprojected` are in here.
+    loose: Vec<Queue>,
     /// Tiles asked so far, for progress.
     asked: u64,
 }
@@ -80,6 +83,7 @@ impl Refiner {
             sites: Sites::default(),
             open: Vec::new(),
             unprojected: Vec::new(),
+            loose: Vec::new(),
             asked: 0,
         }
     }
@@ -104,6 +108,12 @@ impl Refiner {
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
         self.sites.occupants()
+    }
+
+    /// How many times the rules were asked about a tile so far, or what it
+    /// demands of the next coarser level.
+    pub fn tiles_asked(&self) -> u64 {
+        self.asked
     }
 
     /// Adds points and refines until every rule holds again.
@@ -239,7 +249,7 @@ impl Refiner {
     /// Merges what a closed level has to spare.
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
-            let tiles: Vec<_> = self.unprojected[usize::from(level)].iter().collect();
+            let tiles = self.loose[usize::from(level)].take();
             coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
         }
     }
@@ -353,11 +363,15 @@ impl Refiner {
         if k >= self.open.len() {
             self.open.resize_with(k + 1, Queue::default);
             self.unprojected.resize_with(k + 1, Queue::default);
+            self.loose.resize_with(k + 1, Queue::default);
         }
-        let open = &mut self.open[k];
-        self.grid.tiles_mut().require_margin(level, id, bits, |tile| open.push(tile));
+        let (open, unprojected) = (&mut self.open[k], &mut self.unprojected[k]);
+        self.grid.tiles_mut().require_margin(level, id, bits, |tile| {
+            open.push(tile);
+            unprojected.push(tile);
+        });
         for tile in self.grid.tiles().around(level, id) {
-            self.unprojected[k].push(tile);
+            self.loose[k].push(tile);
         }
     }
 
