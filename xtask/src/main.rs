@@ -1,5 +1,6 @@
 //! Development tasks: `cargo xtask <task>`.
 
+mod regen;
 mod tidy;
 
 use clap::{Parser, Subcommand};
@@ -17,6 +18,13 @@ enum Task {
     /// Check the structure of the workspace: which crate may depend on which,
     /// lengths of files, headers of modules
     Tidy,
+    /// Rebuild the records of the snapshot tests and the figures of the
+    /// documents from the fixtures
+    Regen {
+        /// Change nothing; fail if anything would change
+        #[arg(long)]
+        check: bool,
+    },
 }
 
 /// What a task returns: nothing, or what went wrong.
@@ -25,6 +33,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 fn main() -> ExitCode {
     let outcome = match Cli::parse().task {
         Task::Tidy => tidy::run(),
+        Task::Regen { check } => regen::run(check),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
