@@ -9,7 +9,7 @@ use hexdel::classify::hexagons::hexagons;
 use hexdel::classify::{Domain, Occupant, extract};
 use hexdel::geom::{CertifyOptions, certify};
 use hexdel::grid::{Address, Direction, Grid, Hex, Lattice};
-use hexdel::io::{MeshFormat, MeshView, Overlay, Picture, read_points, write_mesh_to};
+use hexdel::io::{MeshFormat, MeshView, Overlay, OverlayClass, Picture, read_points, write_mesh_to};
 use hexdel::refine::{Refiner, RuleSet};
 use hexdel::{AngleBounds, DVec2, Mesher, Method, TriMesh, Unwatched};
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,10 +40,11 @@ fn of_fixture(root: &Path, name: &str) -> Result<BTreeMap<String, Vec<u8>>, Box<
     let mut figures = BTreeMap::new();
     for (method, suffix) in [(Method::Simple, "simple"), (Method::Templates, "templates")] {
         let made = Mesher::new().method(method).triangulate(&points)?;
+        let overlay = used_classes(made.overlay());
         let drawing = Drawing {
             mesh: &made.mesh,
             inputs: made.input_of_vertex(),
-            overlay: used_classes(made.overlay()),
+            overlay: if method == Method::Simple { unmoved(overlay) } else { overlay },
             bounds: method.bounds(),
             size_px: LARGE_PX,
         };
@@ -133,7 +134,7 @@ fn template(mut grid: Grid, occupants: &[Occupant], bounds: AngleBounds) -> Resu
     }
     let mut overlay = used_classes(hexdel::picture::overlay(hexagons(&grid, domain, occupants)));
     if !relocate {
-        overlay = by_level(overlay);
+        overlay = unmoved(overlay);
     }
     Drawing { mesh: &dual.mesh, inputs, overlay, bounds, size_px: SMALL_PX }.svg(Show::Dual)
 }
@@ -183,15 +184,23 @@ fn used_classes(mut overlay: Overlay) -> Overlay {
     overlay
 }
 
-/// The layer with semi-hexagons and all others told apart, no more: where no
-/// centre moves, classes are without meaning.
-fn by_level(mut overlay: Overlay) -> Overlay {
+/// The layer with semi-hexagons, full and occupied ones told apart, no more:
+/// where no centre moves, the other classes are without meaning.
+fn unmoved(mut overlay: Overlay) -> Overlay {
+    let label = |old: &str| match old {
+        "semi-hexagon" => "semi-hexagon",
+        "occupied 1" | "occupied 2" => "occupied",
+        _ => "full hexagon",
+    };
+    for class in &mut overlay.classes {
+        class.label = label(&class.label).to_owned();
+    }
+    let first = |class: usize| {
+        let same = |other: &OverlayClass| other.label == overlay.classes[class].label;
+        overlay.classes.iter().position(same).unwrap_or(class)
+    };
     for polygon in &mut overlay.polygons {
-        polygon.class = polygon.class.min(1);
+        polygon.class = first(polygon.class);
     }
-    overlay.classes.truncate(2);
-    if let Some(full) = overlay.classes.get_mut(1) {
-        "full hexagon".clone_into(&mut full.label);
-    }
-    overlay
+    used_classes(overlay)
 }
