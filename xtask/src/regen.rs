@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-/// Where the figures lie, below the workspace's folder.
-const FIGURES: &str = "docs/figures";
+/// Where the figures lie, below the workspace's folder. Nothing else may lie there.
+const FIGURES: &str = "docs/figures/algorithm";
 
 /// Where the records lie, below the workspace's folder.
 const RECORDS: &str = "crates/hexdel/tests/snapshots";

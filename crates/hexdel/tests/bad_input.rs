@@ -1,6 +1,8 @@
 //! Input that cannot be meshed: an error of its own for each fault, naming
 //! what is at fault.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 mod common;
 
 use hexdel::geom::PointsError;
@@ -157,7 +159,7 @@ fn a_single_point_far_away() {
         match narrow {
             Ok(made) => common::hold(&made, &points),
             Err(Error::DomainTooSmall { radius, least }) => {
-                assert!(radius == 1.0 && least > 1.0 && exponent > 11)
+                assert!(radius == 1.0 && least > 1.0 && exponent > 11);
             }
             Err(error) => panic!("{error}"),
         }

@@ -1,5 +1,7 @@
 //! Progress that only advances, and work that stops when asked to.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 mod common;
 
 use hexdel::geom::Cancelled;

@@ -10,10 +10,12 @@
 //! for rounding, so its hull has slivers along them that our mesh has not; all
 //! else must be equal in number.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 mod common;
 
 use hexdel::geom::incircle;
-use hexdel::{DVec2, Mesher, Method, Triangulation};
+use hexdel::{DVec2, Mesher, Method, Triangulation, VertexId};
 use proptest::prelude::*;
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 use std::collections::{BTreeMap, BTreeSet};
@@ -45,7 +47,8 @@ fn is_sliver(t: Triangle, vertices: &[DVec2]) -> bool {
 
 fn agrees(made: &Triangulation) {
     let vertices = &made.mesh.vertices;
-    let ours: BTreeSet<Triangle> = made.mesh.triangles.iter().map(|t| named(t.map(|v| v.index()))).collect();
+    let ours: BTreeSet<Triangle> =
+        made.mesh.triangles.iter().map(|t| named(t.map(VertexId::index))).collect();
     let theirs = by_spade(vertices);
     let mut apexes = BTreeMap::new();
     for &[a, b, c] in &ours {

@@ -3,11 +3,15 @@
 //! A failing case is not kept by proptest: once understood it goes to
 //! `fixtures/regressions`, where every later test sees it.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 mod common;
 
 use common::{bits, hold};
 use hexdel::generate::{Kind, generate};
-use hexdel::{DVec2, Mesher, Method, Triangulation, triangulate};
+use hexdel::grid::Lattice;
+use hexdel::refine::{Refiner, RuleSet};
+use hexdel::{DVec2, Mesher, Method, Triangulation, Unwatched, triangulate};
 use proptest::prelude::*;
 
 fn config() -> ProptestConfig {
@@ -48,6 +52,26 @@ proptest! {
     #[test]
     fn promises_do_not_need_coarsening(points in point_sets(25)) {
         hold(&Mesher::new().coarsening(false).triangulate(&points).unwrap(), &points);
+    }
+
+    /// Adding points later leaves no rule unobeyed either.
+    #[test]
+    fn no_rule_is_left_unobeyed(points in point_sets(40), later in 0_usize..20, simple in any::<bool>()) {
+        let set = hexdel::geom::PointSet::new(&points).unwrap();
+        let sites = set.sites();
+        let spacing = common::closest_distance(&points).map_or(1.0, |d| 100.0 * d);
+        let rules = if simple { RuleSet::simple() } else { RuleSet::extended() };
+        let mut refiner = Refiner::new(Lattice::new(sites[0], spacing), rules);
+        let (first, rest) = sites.split_at(sites.len().saturating_sub(later));
+        for batch in [first, rest] {
+            refiner.insert(batch, &Unwatched).unwrap();
+            prop_assert_eq!(refiner.violation(), None);
+            prop_assert_eq!(refiner.grid().unbalanced(), None);
+        }
+        let mut leaves: Vec<_> = refiner.occupants().iter().map(|o| (o.level, o.at.hex)).collect();
+        leaves.sort_unstable();
+        leaves.dedup();
+        prop_assert_eq!(leaves.len(), sites.len());
     }
 
     /// Down to one point, and to points in any relation to each other.
@@ -188,7 +212,6 @@ fn every_kind_of_point_set() {
 /// exactly.
 #[test]
 fn the_fixture_on_edges_and_corners_lies_there() {
-    use hexdel::grid::Lattice;
     let points = common::points("on_hexagon_edges_and_corners");
     let made = triangulate(&points).unwrap();
     hold(&made, &points);

@@ -8,12 +8,15 @@
 //! `cargo xtask regen` renews the records; `cargo xtask regen --check` holds
 //! them.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 mod common;
 
 use common::{Fixture, METHODS};
-use hexdel::{Error, Mesher, Method, Triangulation};
+use hexdel::{Error, Mesher, Method, Triangulation, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 /// Meshes with fewer triangles are on record in full.
 const SMALL: usize = 60;
@@ -32,8 +35,10 @@ fn simple() {
 #[test]
 fn every_record_has_its_fixture() {
     let folder = common::root().join("crates/hexdel/tests/snapshots");
-    let names = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
-    let found: BTreeSet<String> = names.filter(|n| n.ends_with(".snap")).collect();
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let records = files.filter(|file| file.extension().is_some_and(|e| e == "snap"));
+    let name = |file: PathBuf| file.file_name().unwrap().to_str().unwrap().to_owned();
+    let found: BTreeSet<String> = records.map(name).collect();
     let fixtures = common::fixtures();
     let expected = fixtures.iter().flat_map(|f| METHODS.map(|(_, m)| format!("{}-{m}.snap", f.name)));
     assert_eq!(found, expected.collect());
@@ -109,7 +114,7 @@ fn full(text: &mut String, made: &Triangulation) {
         let _ = writeln!(text, "v{i} {:?} {:?}{input}", v.x, v.y);
     }
     for t in &made.mesh.triangles {
-        let [a, b, c] = t.map(|v| v.index());
+        let [a, b, c] = t.map(VertexId::index);
         let _ = writeln!(text, "t {a} {b} {c}");
     }
 }

@@ -4,7 +4,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use hexdel::geom::{CertifyOptions, certify};
-use hexdel::{DVec2, Method, Triangulation};
+use hexdel::{DVec2, Method, Triangulation, VertexId};
 use std::path::{Path, PathBuf};
 
 /// Both methods, with the names they have in snapshots.
@@ -103,6 +103,6 @@ pub(crate) fn hold(made: &Triangulation, points: &[DVec2]) {
 /// The bits of a mesh: equal exactly for equal bytes.
 pub(crate) fn bits(made: &Triangulation) -> (Vec<[u64; 2]>, Vec<[usize; 3]>) {
     let vertices = made.mesh.vertices.iter().map(|v| [v.x.to_bits(), v.y.to_bits()]).collect();
-    let triangles = made.mesh.triangles.iter().map(|t| t.map(|v| v.index())).collect();
+    let triangles = made.mesh.triangles.iter().map(|t| t.map(VertexId::index)).collect();
     (vertices, triangles)
 }
