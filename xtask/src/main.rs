@@ -2,6 +2,7 @@
 
 mod bench;
 mod ci;
+mod regen;
 mod tidy;
 
 use clap::{Parser, Subcommand};
@@ -23,6 +24,13 @@ enum Task {
     Tidy,
     /// Measure time and memory, side by side with spade
     Bench(bench::Args),
+    /// Rebuild the records of the snapshot tests and the figures of the
+    /// documents from the fixtures
+    Regen {
+        /// Change nothing; fail if anything would change
+        #[arg(long)]
+        check: bool,
+    },
 }
 
 /// What a task returns: nothing, or what went wrong.
@@ -33,6 +41,7 @@ fn main() -> ExitCode {
         Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
         Task::Bench(args) => bench::run(&args),
+        Task::Regen { check } => regen::run(check),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -31,14 +31,25 @@ pub fn hexagons(grid: &Grid, domain: Domain, occupants: &[Occupant]) -> Vec<Hexa
     let rings = ring_classes(occupants);
     let mut all = Vec::new();
     for address in places(grid, domain) {
-        let class = match grid.kind(address) {
+        let kind = kind(grid, domain, address);
+        let class = match kind {
             HexKind::Leaf => Some(rings.get(&address).copied().unwrap_or_else(|| by_fins(grid, address))),
-            HexKind::Semi { .. } if address.level > domain.base_level => None,
+            HexKind::Semi { .. } => None,
             _ => continue,
         };
-        all.push(Hexagon { address, class, corners: corners(grid, address) });
+        all.push(Hexagon { address, class, corners: corners(grid, address, kind) });
     }
     all
+}
+
+/// What stands at a place of the patch: its base level is full, whatever the
+/// grid has on coarser ones.
+fn kind(grid: &Grid, domain: Domain, at: Address) -> HexKind {
+    match at.level == domain.base_level {
+        true if grid.is_subdivided(at) => HexKind::Subdivided,
+        true => HexKind::Leaf,
+        false => grid.kind(at),
+    }
 }
 
 /// Every address of the patch at which a hexagon or semi-hexagon can stand.
@@ -92,7 +103,7 @@ fn by_fins(grid: &Grid, at: Address) -> Class {
 
 /// Corners of a full hexagon, or of the half of a semi-hexagon that was made:
 /// the one on the side of the parent that is subdivided.
-fn corners(grid: &Grid, at: Address) -> Vec<DVec2> {
+fn corners(grid: &Grid, at: Address, kind: HexKind) -> Vec<DVec2> {
     let spacing = grid.lattice().spacing(at.level);
     let centre = grid.lattice().position(at);
     // Corner i lies at 30 + 60 i degrees, 1 / sqrt(3) of a step from the centre.
@@ -101,7 +112,7 @@ fn corners(grid: &Grid, at: Address) -> Vec<DVec2> {
         let third = crate::exact::Offset::fraction(d.step() + d.turned(1).step(), 1, 3);
         centre + third.cartesian() * spacing
     };
-    match grid.kind(at) {
+    match kind {
         HexKind::Semi { of } => {
             let outward = of.scaled() - at.hex;
             let d = Direction::ALL.into_iter().find(|d| d.step() == outward).unwrap_or(Direction::ALL[0]);
@@ -127,13 +138,15 @@ mod tests {
     fn hexagons_and_semi_hexagons_fill_the_patch() {
         let mut grid = Grid::new(Lattice::new(DVec2::ZERO, 1.0));
         grid.subdivide(Address::new(2, Hex::new(3, -1)));
-        let domain = Domain::around(&grid, 0).unwrap();
-        let all = hexagons(&grid, domain, &[]);
-        let total: f64 = all.iter().map(|h| area(&h.corners)).sum();
-        let one = 0.5 * 3.0_f64.sqrt();
-        let hexes = f64::from(3 * domain.radius * (domain.radius + 1) + 1);
-        assert!((total - one * hexes).abs() < 1e-9, "{total}");
-        assert!(all.iter().any(|h| h.class.is_none()));
-        assert!(all.iter().all(|h| area(&h.corners) > 0.0));
+        for base_level in 0..3 {
+            let domain = Domain::around(&grid, base_level).unwrap();
+            let all = hexagons(&grid, domain, &[]);
+            let total: f64 = all.iter().map(|h| area(&h.corners)).sum();
+            let one = 0.5 * 3.0_f64.sqrt() * grid.lattice().spacing(base_level).powi(2);
+            let hexes = f64::from(3 * domain.radius * (domain.radius + 1) + 1);
+            assert!((total - one * hexes).abs() < 1e-9, "{total}");
+            assert!(all.iter().any(|h| h.class.is_none()));
+            assert!(all.iter().all(|h| area(&h.corners) > 0.0));
+        }
     }
 }

@@ -42,11 +42,12 @@ pub enum Error {
         least: f64,
     },
     /// The domain asked for leaves too little room around the points.
-    #[error("a domain of radius {radius} is too small: these points need {least}")]
+    #[error("a domain of radius {radius} is too small: these points need about {least}")]
     DomainTooSmall {
         /// The radius asked for.
         radius: f64,
-        /// A radius that would do.
+        /// A radius that would do on the grid that the one asked for gave. The
+        /// grid follows the radius, so that a second, larger one may be named.
         least: f64,
     },
     /// The domain asked for is not a positive number.

@@ -42,17 +42,34 @@ impl Triangulation {
     /// # Ok::<(), hexdel::Error>(())
     /// ```
     pub fn overlay(&self) -> Overlay {
-        let polygon = |hexagon: Hexagon| Polygon {
-            class: CLASSES.iter().position(|(c, _, _)| *c == hexagon.class).unwrap_or(0),
-            level: u32::from(hexagon.address.level),
-            corners: hexagon.corners,
-        };
-        Overlay {
-            title: "hexagons by class".to_owned(),
-            classes: CLASSES
-                .map(|(_, label, colour)| OverlayClass { label: label.to_owned(), colour })
-                .into(),
-            polygons: self.hexagons().into_iter().map(polygon).collect(),
-        }
+        overlay(self.hexagons())
+    }
+}
+
+/// Hexagons as a layer of a picture, coloured by class and level.
+///
+/// ```
+/// use hexdel::classify::hexagons::hexagons;
+/// use hexdel::classify::Domain;
+/// use hexdel::grid::{Address, Grid, Hex, Lattice};
+/// # use hexdel::DVec2;
+///
+/// let mut grid = Grid::new(Lattice::new(DVec2::ZERO, 1.0));
+/// grid.subdivide(Address::new(0, Hex::ORIGIN));
+/// let domain = Domain { base_level: 0, radius: 2 };
+/// let layer = hexdel::picture::overlay(hexagons(&grid, domain, &[]));
+/// // 18 whole hexagons, the scaled centre and six fins.
+/// assert_eq!(layer.polygons.len(), 25);
+/// ```
+pub fn overlay(hexagons: impl IntoIterator<Item = Hexagon>) -> Overlay {
+    let polygon = |hexagon: Hexagon| Polygon {
+        class: CLASSES.iter().position(|(c, _, _)| *c == hexagon.class).unwrap_or(0),
+        level: u32::from(hexagon.address.level),
+        corners: hexagon.corners,
+    };
+    Overlay {
+        title: "hexagons by class".to_owned(),
+        classes: CLASSES.map(|(_, label, colour)| OverlayClass { label: label.to_owned(), colour }).into(),
+        polygons: hexagons.into_iter().map(polygon).collect(),
     }
 }

@@ -58,14 +58,14 @@ impl Placement {
         let sites = points.sites();
         let circle = smallest_enclosing_circle(sites).expect("a point set holds at least one finite point");
         let Some(pair) = closest_pair(sites) else {
-            return Ok(Self::of_one(circle.center, radius));
+            return Self::of_one(circle.center, radius);
         };
         check_resolved(points, &pair)?;
         let finest = pair.distance / CONFLICT_REACH;
         let (spacing, steps, last_level) = match radius {
             None => {
                 let levels = levels_between(LEVEL_0_SPACINGS * circle.radius, finest);
-                (finest * 2.0_f64.powi(i32::from(levels)), None, levels)
+                (doubled(finest, levels), None, levels)
             }
             Some(radius) => {
                 let (steps, levels) = steps_for(radius, finest);
@@ -73,20 +73,25 @@ impl Placement {
             }
         };
         if last_level >= Grid::MAX_LEVELS {
-            let least = circle.radius * CONFLICT_REACH * 0.5_f64.powi(i32::from(Grid::MAX_LEVELS) - 4);
+            let least = halved(circle.radius * CONFLICT_REACH, Grid::MAX_LEVELS - 4);
             return Err(too_close(points, &pair, least));
         }
         let shortest_edge = Some(pair.distance * SHORTEST_EDGE);
         Ok(Self { lattice: Lattice::new(circle.center, spacing), shortest_edge, steps, last_level })
     }
 
-    /// A single site has no scale of its own: a patch of radius 1.
-    fn of_one(site: DVec2, radius: Option<f64>) -> Self {
+    /// A single site has no scale of its own: a patch of radius 1 or, far away,
+    /// as small as coordinates resolve there.
+    fn of_one(site: DVec2, radius: Option<f64>) -> Result<Self, Error> {
+        let least = finest_spacing(site);
         let (spacing, steps) = match radius {
             Some(radius) => (radius / f64::from(STEPS[0]), Some(STEPS[0])),
-            None => (0.5, None),
+            None => (least.max(1.0), None),
         };
-        Self { lattice: Lattice::new(site, spacing), shortest_edge: None, steps, last_level: 0 }
+        if let Some(radius) = radius.filter(|_| spacing < least) {
+            return Err(Error::DomainTooSmall { radius, least: least * f64::from(STEPS[0]) });
+        }
+        Ok(Self { lattice: Lattice::new(site, spacing), shortest_edge: None, steps, last_level: 0 })
     }
 
     /// The patch of the refined grid to cut the mesh out of: the one with the
@@ -110,14 +115,26 @@ impl Placement {
 
 /// How many times `finest` must be doubled to reach `size`; at most 255.
 fn levels_between(size: f64, finest: f64) -> u8 {
-    (size / finest).log2().ceil().clamp(0.0, 255.0) as u8
+    // A length leaves the range of numbers long before the count leaves its own.
+    let reaches = |&levels: &u8| doubled(finest, levels) >= size;
+    (0..u8::MAX).find(reaches).unwrap_or(u8::MAX)
+}
+
+/// `length * 2^times`. Exact, and the same on every platform, which neither
+/// powers nor logarithms of the standard library promise.
+fn doubled(length: f64, times: u8) -> f64 {
+    (0..times).fold(length, |length, _| 2.0 * length)
+}
+
+/// `length / 2^times`; exact as [`doubled`].
+fn halved(length: f64, times: u8) -> f64 {
+    (0..times).fold(length, |length, _| 0.5 * length)
 }
 
 /// Steps of level 0 to the rim, and levels, such that the last level is just
 /// fine enough.
 fn steps_for(radius: f64, finest: f64) -> (u32, u8) {
-    let fits =
-        |&(steps, levels): &(u32, u8)| radius / f64::from(steps) * 0.5_f64.powi(i32::from(levels)) <= finest;
+    let fits = |&(steps, levels): &(u32, u8)| halved(radius / f64::from(steps), levels) <= finest;
     (0..=u8::MAX)
         .flat_map(|levels| STEPS.map(|steps| (steps, levels)))
         .find(fits)
@@ -136,12 +153,38 @@ fn check_range(points: &PointSet) -> Result<(), Error> {
     }
 }
 
-/// Whether the closest pair is far enough apart for the coordinates there, and
-/// for the predicates.
+/// The finest spacing that coordinates resolve at a point.
+fn finest_spacing(at: DVec2) -> f64 {
+    at.abs().max_element() * f64::EPSILON * LAST_PLACES
+}
+
+/// Whether all pairs are far enough apart for the coordinates where they lie,
+/// and for the predicates; up to a factor of two for all but the closest.
+///
+/// Coordinates resolve less the larger they are, so the pair that is too close
+/// need not be the closest. Sites are looked at from the largest coordinates
+/// down, doubling by doubling: of those beyond a size the closest pair, until
+/// even the closest of all would do at that size. In most inputs it does at
+/// every size.
 fn check_resolved(points: &PointSet, pair: &ClosestPair) -> Result<(), Error> {
-    let largest = [pair.a, pair.b].map(|i| points.sites()[i].abs().max_element());
-    let last_place = largest[0].max(largest[1]) * f64::EPSILON;
-    let least = (last_place * LAST_PLACES * CONFLICT_REACH).max(1.0 / MAX_COORDINATE);
+    check_pair(points, pair)?;
+    let sites = points.sites();
+    let size = |site: &DVec2| site.abs().max_element();
+    let mut beyond = sites.iter().map(size).fold(0.0, f64::max);
+    while pair.distance < finest_spacing(DVec2::splat(beyond)) * CONFLICT_REACH {
+        beyond *= 0.5;
+        let indices: Vec<usize> = (0..sites.len()).filter(|&i| size(&sites[i]) >= beyond).collect();
+        let far: Vec<DVec2> = indices.iter().map(|&i| sites[i]).collect();
+        if let Some(found) = closest_pair(&far) {
+            check_pair(points, &ClosestPair { a: indices[found.a], b: indices[found.b], ..found })?;
+        }
+    }
+    Ok(())
+}
+
+fn check_pair(points: &PointSet, pair: &ClosestPair) -> Result<(), Error> {
+    let finest = [pair.a, pair.b].map(|i| finest_spacing(points.sites()[i]));
+    let least = (finest[0].max(finest[1]) * CONFLICT_REACH).max(1.0 / MAX_COORDINATE);
     if pair.distance < least { Err(too_close(points, pair, least)) } else { Ok(()) }
 }
 
@@ -176,11 +219,22 @@ mod tests {
     }
 
     #[test]
+    fn levels_are_as_many_as_doublings() {
+        for levels in 0..60 {
+            let size = doubled(0.3, levels);
+            assert_eq!(levels_between(size, 0.3), levels);
+            assert_eq!(levels_between(size.next_up(), 0.3), levels + 1);
+            assert_eq!(halved(size, levels), 0.3);
+        }
+        assert_eq!((levels_between(0.0, 1.0), levels_between(f64::INFINITY, 1e300)), (0, 28));
+    }
+
+    #[test]
     fn a_prescribed_radius_makes_the_last_level_just_fine_enough() {
         for i in 1..200 {
             let (radius, finest) = (3.7, 0.013 * f64::from(i));
             let (steps, levels) = steps_for(radius, finest);
-            let last = radius / f64::from(steps) * 0.5_f64.powi(i32::from(levels));
+            let last = halved(radius / f64::from(steps), levels);
             assert!(last <= finest);
             assert!(levels == 0 && steps == 3 || last >= finest * 0.75 * (1.0 - 1e-12), "{last} {finest}");
         }
