@@ -6,7 +6,7 @@
 //! certified before it is drawn.
 
 use hexdel::classify::hexagons::hexagons;
-use hexdel::classify::{Domain, Occupant, extract};
+use hexdel::classify::{Domain, Occupant, Relocation, extract};
 use hexdel::geom::{CertifyOptions, certify};
 use hexdel::grid::{Address, Direction, Grid, Hex, Lattice};
 use hexdel::io::{MeshFormat, MeshView, Overlay, OverlayClass, Picture, read_points, write_mesh_to};
@@ -119,9 +119,10 @@ fn of_points() -> Figures {
 /// A small grid with its dual over it; plain within simple bounds, else
 /// relocated.
 fn template(mut grid: Grid, occupants: &[Occupant], bounds: AngleBounds) -> Result<Vec<u8>, Box<dyn Error>> {
-    let relocate = bounds == AngleBounds::EXTENDED;
+    let simple = bounds == AngleBounds::SIMPLE;
+    let relocation = if simple { Relocation::Occupied } else { Relocation::Full };
     let domain = Domain::around(&grid, 0).ok_or("a point lies on no level")?;
-    let dual = extract(&mut grid, occupants, domain, relocate, &Unwatched)?;
+    let dual = extract(&mut grid, occupants, domain, relocation, &Unwatched)?;
     // Four corners on a circle are left as they come: no input is at stake.
     let options = CertifyOptions { bounds, require_delaunay: false, ..CertifyOptions::default() };
     let certificate = certify(&dual.mesh, &options);
@@ -133,7 +134,7 @@ fn template(mut grid: Grid, occupants: &[Occupant], bounds: AngleBounds) -> Resu
         inputs[vertex.index()] = Some(i as u32);
     }
     let mut overlay = used_classes(hexdel::picture::overlay(hexagons(&grid, domain, occupants)));
-    if !relocate {
+    if simple {
         overlay = unmoved(overlay);
     }
     Drawing { mesh: &dual.mesh, inputs, overlay, bounds, size_px: SMALL_PX }.svg(Show::Dual)
