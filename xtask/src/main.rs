@@ -1,5 +1,6 @@
 //! Development tasks: `cargo xtask <task>`.
 
+mod prove;
 mod tidy;
 
 use clap::{Parser, Subcommand};
@@ -17,6 +18,17 @@ enum Task {
     /// Check the structure of the workspace: which crate may depend on which,
     /// lengths of files, headers of modules
     Tidy,
+    /// Prove by enumeration that every triangle keeps 43.9 to 90 degrees, and
+    /// write docs/proof.md
+    Prove {
+        /// Leave a rule away, by its name; nothing is written then
+        #[arg(long, value_name = "RULE")]
+        without: Vec<String>,
+        /// One unit of each kind instead of all orientations; nothing is
+        /// written
+        #[arg(long)]
+        reduced: bool,
+    },
 }
 
 /// What a task returns: nothing, or what went wrong.
@@ -25,6 +37,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 fn main() -> ExitCode {
     let outcome = match Cli::parse().task {
         Task::Tidy => tidy::run(),
+        Task::Prove { without, reduced } => prove::run(&without, reduced),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

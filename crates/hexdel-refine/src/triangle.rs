@@ -52,6 +52,19 @@ impl Rule for TriangleRule {
     }
 }
 
+/// The corner that the rule asks for because of one lattice triangle,
+/// counter-clockwise: what [`TriangleRule`] does for every triangle of a window.
+pub fn victim_of(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
+    let moved = c.moved1 | c.moved2 | c.moved4();
+    let foreign = |a: Hex, b: Hex| {
+        let along = Direction::ALL[..3].iter().find(|d| a.neighbour(**d) == b);
+        along.is_some_and(|&d| foreign_pairs(c, moved, d).contains(a))
+    };
+    let [x, y, z] = corners;
+    let any = [(x, y), (y, z), (z, x)].into_iter().any(|(a, b)| foreign(a, b) || foreign(b, a));
+    if any { victim(c, corners) } else { None }
+}
+
 /// The hexagons that are moved by another front than their neighbour in
 /// direction `d`: both are moved, they share no fin, and neither is the top of
 /// a three-finned hexagon beside the other.

@@ -24,9 +24,11 @@
 //! | [`vertices`] | coordinates |
 //! | [`triangles`] | index triples |
 //! | [`star`] | the triangles around a three-finned hexagon |
+//! | [`local`] | the triangles around one place, in exact coordinates |
 
 pub mod domain;
 pub mod layout;
+pub mod local;
 pub mod star;
 pub mod triangles;
 pub mod vertices;

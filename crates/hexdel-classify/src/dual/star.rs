@@ -48,7 +48,7 @@ impl Star {
         })
     }
 
-    fn single(self) -> bool {
+    pub(super) fn single(self) -> bool {
         !self.before && !self.after
     }
 }
@@ -89,16 +89,21 @@ pub(super) fn inserted_at(layout: &Layout, level: u8, id: TileId, at: Hex) -> Of
     let coarser = tiles.get(level - 1, parent).first();
     let (a, b) = (first + at).parents();
     let b = b.expect("a semi-hexagon has two parents");
-    for (hex, fin) in [(a, b), (b, a)] {
-        if let Some(star) = Star::of(&classes, hex - coarser) {
-            let points = star_points(star.middle, star.before, star.after);
-            let i = (0..3).find(|&i| star.middle.turned(5 + i).step() == fin - hex);
-            let p = points[i.expect("the point lies on a fin")];
-            let scaled = Offset { q: 2 * p.q, r: 2 * p.r };
-            return Offset::of(hex.scaled() - first) + scaled;
-        }
-    }
-    unreachable!("no three-finned hexagon at {at:?} of {id:?}, level {level}")
+    let Some(point) = inserted_between(&classes, a - coarser, b - coarser) else {
+        unreachable!("no three-finned hexagon at {at:?} of {id:?}, level {level}")
+    };
+    let scaled = Offset { q: 2 * point.q, r: 2 * point.r };
+    scaled + Offset::of(coarser.scaled() - first)
+}
+
+/// Where the point lies that is inserted between a subdivided hexagon and one
+/// that is not, relative to the window's tile; `None` if there is none.
+pub(super) fn inserted_between(classes: &Classes, a: Hex, b: Hex) -> Option<Offset> {
+    [(a, b), (b, a)].into_iter().find_map(|(hex, fin)| {
+        let star = Star::of(classes, hex)?;
+        let i = (0..3).find(|&i| star.middle.turned(5 + i).step() == fin - hex)?;
+        Some(Offset::of(hex) + star_points(star.middle, star.before, star.after)[i])
+    })
 }
 
 /// Ids of the vertices around a star.
