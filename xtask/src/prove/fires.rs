@@ -157,7 +157,8 @@ mod tests {
                     let known = plan.known[depth];
                     // Patterns out of straight fronts, where the rules are
                     // not drowned in irregular hexagons.
-                    let wanted = fronts(&mut bits) ^ if round % 2 == 0 { Window::EMPTY } else { sparse(&mut bits) };
+                    let noise = if round % 2 == 0 { Window::EMPTY } else { sparse(&mut bits) };
+                    let wanted = fronts(&mut bits).without(noise) | noise & sparse(&mut bits);
                     let pattern = (wanted & known[0]) | (plan.given & known[0]);
                     if certain >= 40 || !fires.certainly(&plan, depth, plan.order[depth - 1], pattern) {
                         continue;

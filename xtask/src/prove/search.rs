@@ -44,6 +44,9 @@ pub(crate) struct Kind {
     pub(crate) orbits: u64,
     /// Triangles looked at.
     pub(crate) triangles: u64,
+    /// The smallest and the largest angle, degrees, over all patterns of the
+    /// patch; those that are not legal in any larger one are among them.
+    pub(crate) range_deg: Option<(f64, f64)>,
     /// The smallest angle, by a pattern that the rules leave as it is.
     pub(crate) least: Option<Witness>,
     /// The largest one.
@@ -88,6 +91,10 @@ impl Found {
             mine.patterns += kind.patterns;
             mine.orbits += kind.orbits;
             mine.triangles += kind.triangles;
+            if let Some((least, greatest)) = kind.range_deg {
+                widen(&mut mine.range_deg, least);
+                widen(&mut mine.range_deg, greatest);
+            }
             keep(&mut mine.least, kind.least, |new, old| new < old);
             keep(&mut mine.greatest, kind.greatest, |new, old| new > old);
         }
@@ -98,6 +105,11 @@ impl Found {
 /// first witness stays.
 const SAME_DEG: f64 = 1e-9;
 
+fn widen(range: &mut Option<(f64, f64)>, angle: f64) {
+    let (least, greatest) = range.unwrap_or((angle, angle));
+    *range = Some((least.min(angle), greatest.max(angle)));
+}
+
 fn keep(mine: &mut Option<Witness>, new: Option<Witness>, better: impl Fn(f64, f64) -> bool) {
     if let Some(new) = new
         && mine.is_none_or(|old| better(new.angle_deg, old.angle_deg))
@@ -105,6 +117,23 @@ fn keep(mine: &mut Option<Witness>, new: Option<Witness>, better: impl Fn(f64, f
     {
         *mine = Some(new);
     }
+}
+
+/// Failures of one task after which patterns that break the bounds are closed
+/// as they are, but no longer continued: the proof has failed, and what is left
+/// to find is the worst.
+const ENOUGH: usize = 20;
+
+/// What becomes of a pattern beyond its patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    /// A legal state of the grid holds it: the pattern and what the rules add
+    /// around it.
+    Legal(Window),
+    /// No legal state does.
+    Dead,
+    /// Neither was shown.
+    Unknown,
 }
 
 /// Hexagons decided before the search is split into tasks.
@@ -190,6 +219,7 @@ impl Search<'_> {
         let mut closed = None;
         for witness in triangles.iter().flat_map(|t| self.plan.witnesses(pattern, t)) {
             let angle = witness.angle_deg;
+            widen(&mut kind.range_deg, angle);
             let less = kind.least.is_none_or(|w| angle < w.angle_deg - SAME_DEG);
             let more = kind.greatest.is_none_or(|w| angle > w.angle_deg + SAME_DEG);
             if !less && !more {
@@ -198,7 +228,7 @@ impl Search<'_> {
             // Only a pattern that the rules leave as it is shows that an
             // angle is attained.
             let all = *closed.get_or_insert_with(|| closure::around(self.plan, pattern, &self.fires.rules));
-            let Some(subdivided) = all else { break };
+            let Some(subdivided) = all else { continue };
             let witness = Some(Witness { subdivided, ..witness });
             if less {
                 kind.least = witness;
@@ -212,38 +242,81 @@ impl Search<'_> {
     /// Continues a pattern that breaks the bounds until the rules forbid it.
     fn refute(&mut self, pattern: Window, broken: LocalTriangle) {
         let witness = self.plan.worst(pattern, &broken);
-        if let Some(subdivided) = closure::around(self.plan, pattern, &self.fires.rules) {
-            self.found.counterexamples.push(Witness { subdivided, ..witness });
-            return;
-        }
-        let mut survivor = None;
-        let mut closed = None;
-        let (plan, rules) = (self.plan, &self.fires.rules);
-        self.first(plan.patch, pattern, &mut |whole| {
-            survivor = Some(whole);
-            closed = closure::around(plan, whole, rules);
-            closed.is_some()
-        });
-        match (closed, survivor) {
-            (Some(subdivided), _) => self.found.counterexamples.push(Witness { subdivided, ..witness }),
-            (None, Some(subdivided)) => self.found.undecided.push(Witness { subdivided, ..witness }),
-            (None, None) => self.found.refused += 1,
+        let known = self.found.counterexamples.len() + self.found.undecided.len();
+        let budget = if known < ENOUGH { Budget::new(50, 200_000) } else { Budget::new(1, 1) };
+        match self.end_of(pattern, budget) {
+            End::Legal(subdivided) => self.found.counterexamples.push(Witness { subdivided, ..witness }),
+            End::Dead => self.found.refused += 1,
+            End::Unknown => self.found.undecided.push(witness),
         }
     }
 
-    /// Continues a pattern to the end of the plan; stops when told to.
-    fn first(&mut self, depth: usize, pattern: Window, stop: &mut impl FnMut(Window) -> bool) -> bool {
+    /// What becomes of a pattern of the patch beyond it.
+    fn end_of(&mut self, pattern: Window, mut budget: Budget) -> End {
+        let (plan, rules) = (self.plan, &self.fires.rules);
+        if let Some(whole) = closure::around(plan, pattern, rules) {
+            return End::Legal(whole);
+        }
+        let mut legal = None;
+        let stopped = self.first(plan.patch, pattern, &mut budget, &mut |continued| {
+            legal = closure::around(plan, continued, rules);
+            legal.is_some()
+        });
+        match legal {
+            Some(whole) => End::Legal(whole),
+            None if stopped || budget.open => End::Unknown,
+            None => End::Dead,
+        }
+    }
+
+    /// Continues a pattern to the end of the plan; stops when told to or when
+    /// the budget is used up, and says whether it did.
+    fn first(
+        &mut self,
+        depth: usize,
+        pattern: Window,
+        budget: &mut Budget,
+        stop: &mut impl FnMut(Window) -> bool,
+    ) -> bool {
         let Some(&at) = self.plan.order.get(depth) else {
-            return stop(pattern);
+            budget.closures = budget.closures.saturating_sub(1);
+            budget.open = true;
+            return stop(pattern) || budget.closures == 0;
         };
-        [false, true].into_iter().any(|subdivided| {
+        for subdivided in [false, true] {
             let mut next = pattern;
             if subdivided {
                 next.insert(at);
             }
             self.found.steps += 1;
-            !self.fires.certainly(self.plan, depth + 1, at, next) && self.first(depth + 1, next, stop)
-        })
+            budget.steps = budget.steps.saturating_sub(1);
+            if budget.steps == 0 {
+                return true;
+            }
+            if !self.fires.certainly(self.plan, depth + 1, at, next)
+                && self.first(depth + 1, next, budget, stop)
+            {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// How far a pattern is continued before it is left open.
+#[derive(Clone, Copy, Debug)]
+struct Budget {
+    /// Continuations that are closed under the rules.
+    closures: u32,
+    /// Hexagons that are decided.
+    steps: u64,
+    /// Whether a continuation reached the end and was not legal as it is.
+    open: bool,
+}
+
+impl Budget {
+    const fn new(closures: u32, steps: u64) -> Self {
+        Self { closures, steps, open: false }
     }
 }
 
