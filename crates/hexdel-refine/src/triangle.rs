@@ -1,8 +1,8 @@
 //! The triangle rule, which section 5.2 lacks.
 //!
-//! With the paper's rules alone, angles down to 28.4 and up to 98 degrees
-//! remain where two fronts face each other across a strip of two coarse
-//! hexagons, and where a top touches a hexagon moved by another front. Since
+//! Without it, angles down to 33.3 and up to 93.4 degrees remain where two
+//! fronts face each other across a strip of two coarse hexagons, and where a
+//! top touches a hexagon moved by another front. Since
 //! relocations come from a small finite set, whether a triangle keeps the
 //! bounds is decided exactly; where it does not, its most-moved corner is
 //! subdivided.

@@ -26,10 +26,8 @@ impl Picture {
     fn polygon(&mut self, points: &[[f64; 2]], style: &str) {
         let mut path = String::new();
         for &p in points {
-            for i in 0..2 {
-                self.low[i] = self.low[i].min(p[i]);
-                self.high[i] = self.high[i].max(p[i]);
-            }
+            self.low = [self.low[0].min(p[0]), self.low[1].min(p[1])];
+            self.high = [self.high[0].max(p[0]), self.high[1].max(p[1])];
             let _ = write!(path, "{:.2},{:.2} ", p[0] * STEP, -p[1] * STEP);
         }
         let _ = writeln!(self.shapes, "<polygon points=\"{}\" {style}/>", path.trim_end());

@@ -95,8 +95,7 @@ fn rests_on_known(rule: &str, c: &Classes, known: &[Window; 3], v: Hex) -> bool 
         "two fins beside run" => Direction::ALL.into_iter().any(|d| run_before(c, known, v, d)),
         "triangle" => Direction::ALL.into_iter().any(|d| {
             let corners = [v, v.neighbour(d), v.neighbour(d.turned(1))];
-            corners.iter().all(|&at| known[2].contains(at))
-                && triangle::victim_of(c, corners) == Some(v)
+            corners.iter().all(|&at| known[2].contains(at)) && triangle::victim_of(c, corners) == Some(v)
         }),
         _ => false,
     }
@@ -145,14 +144,19 @@ mod tests {
     fn certain_demands_survive_every_continuation() {
         let mut bits = Bits(0x9e37_79b9_7f4a_7c15);
         let mut seen = std::collections::BTreeMap::new();
-        for name in ["top with fins", "top of two runs", "two fins beside run", "triangle", "class subdivide"] {
+        for name in ["top with fins", "top of two runs", "two fins beside run", "triangle", "class subdivide"]
+        {
             let all = RuleSet::extended();
-            let only = all.iter().map(|r| r.name()).filter(|n| *n != name).fold(all.clone(), RuleSet::without);
+            let only = all
+                .iter()
+                .map(hexdel_refine::Rule::name)
+                .filter(|n| *n != name)
+                .fold(all.clone(), RuleSet::without);
             let fires = Fires::new(only);
             for unit in Unit::representatives() {
                 let plan = Plan::new(unit);
                 let mut certain = 0;
-                for round in 0..60_000 {
+                for round in 0..15_000 {
                     let depth = 15 + (bits.next() % (plan.order.len() as u64 - 15)) as usize;
                     let known = plan.known[depth];
                     // Patterns out of straight fronts, where the rules are
@@ -160,11 +164,11 @@ mod tests {
                     let noise = if round % 2 == 0 { Window::EMPTY } else { sparse(&mut bits) };
                     let wanted = fronts(&mut bits).without(noise) | noise & sparse(&mut bits);
                     let pattern = (wanted & known[0]) | (plan.given & known[0]);
-                    if certain >= 40 || !fires.certainly(&plan, depth, plan.order[depth - 1], pattern) {
+                    if certain >= 30 || !fires.certainly(&plan, depth, plan.order[depth - 1], pattern) {
                         continue;
                     }
                     certain += 1;
-                    for i in 0..200 {
+                    for i in 0..60 {
                         let beyond = if i % 3 == 0 { fronts(&mut bits) } else { bits.window(i % 3 == 1) };
                         let whole = pattern | beyond.without(known[0]);
                         let s = Situation::of(View { subdivided: whole, ..View::default() });
@@ -176,7 +180,7 @@ mod tests {
                 *seen.entry(name).or_insert(0) += certain;
             }
         }
-        assert!(seen.values().all(|n| *n > 0), "{seen:?}");
+        assert!(seen.values().all(|n| *n > 5), "{seen:?}");
     }
 
     fn sparse(bits: &mut Bits) -> Window {

@@ -58,7 +58,8 @@ fn fronts_and_levels(rules: &RuleSet, stride: usize, checked: &mut Checked) -> R
     let disc: Vec<Hex> = CENTRE.disc(2).collect();
     let ring: Window = CENTRE.disc(1).collect();
     let around: Window = disc.iter().copied().collect();
-    let in_ring: Vec<&dyn Rule> = rules.iter().filter(|r| r.name() == "moved in ring").map(|r| r as _).collect();
+    let in_ring: Vec<&dyn Rule> =
+        rules.iter().filter(|r| r.name() == "moved in ring").map(|r| r as _).collect();
     for mask in (0..1_u32 << disc.len()).step_by(stride) {
         let members = disc.iter().enumerate().filter(|(i, _)| mask >> i & 1 == 1);
         let subdivided: Window = members.map(|(_, &at)| at).collect();
@@ -98,7 +99,8 @@ fn rings_exist(rules: &RuleSet, checked: &mut Checked) -> Result<(), Fault> {
         let mark = Window::from_iter([CENTRE]);
         let occupied = |c| if c == class { mark } else { Window::EMPTY };
         let needed: Window = CENTRE.disc(reach).collect();
-        for subdivided in std::iter::once(Window::EMPTY).chain(needed.iter().map(|h| Window::from_iter([h]))) {
+        for subdivided in std::iter::once(Window::EMPTY).chain(needed.iter().map(|h| Window::from_iter([h])))
+        {
             checked.levels += 1;
             let view = View { subdivided, occupied1: occupied(1), occupied2: occupied(2) };
             if !needed.without(rules.must_exist(&Situation::of(view))).is_empty() {
@@ -143,9 +145,11 @@ mod tests {
         let rules = RuleSet::extended();
         let checked = check(&rules, 7).unwrap();
         assert!(checked.levels > 50_000 && checked.pairs > 200, "{checked:?}");
-        for (name, word) in
-            [("fixed beside fins", "semi-hexagon"), ("moved in ring", "front"), ("rings of two occupied", "points")]
-        {
+        for (name, word) in [
+            ("fixed beside fins", "semi-hexagon"),
+            ("moved in ring", "front"),
+            ("rings of two occupied", "points"),
+        ] {
             let fault = check(&rules.clone().without(name), 7).unwrap_err();
             assert!(fault.0.contains(word), "{name}: {fault}");
         }

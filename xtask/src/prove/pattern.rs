@@ -126,9 +126,7 @@ fn kind_of_triangle(classes: &Classes, corners: [Hex; 3]) -> String {
         .iter()
         .filter_map(|&at| match classes.class_of(at) {
             Class::Subdivided => None,
-            Class::MovedCenter4 => {
-                Some(format!("MovedCenter4 of {}", classes.under_of(at).count_ones()))
-            }
+            Class::MovedCenter4 => Some(format!("MovedCenter4 of {}", classes.under_of(at).count_ones())),
             Class::FixedCenterRegular => Some("Fixed".to_owned()),
             other => Some(format!("{other:?}")),
         })
@@ -199,12 +197,10 @@ impl Plan {
             .collect();
         let mut members: Vec<_> = given.iter().map(|&(at, _)| at).collect();
         members.extend(&order[..patch]);
-        let place = |at| members.iter().position(|&m| m == at).expect("a patch has the symmetries of its unit");
-        let images = unit
-            .symmetries()
-            .iter()
-            .map(|map| members.iter().map(|&at| place(map(at))).collect())
-            .collect();
+        let place =
+            |at| members.iter().position(|&m| m == at).expect("a patch has the symmetries of its unit");
+        let images =
+            unit.symmetries().iter().map(|map| members.iter().map(|&at| place(map(at))).collect()).collect();
         let given = given.iter().filter(|(_, s)| *s).map(|&(at, _)| at).collect();
         Self { unit, given, order, patch, known, members, images }
     }
@@ -213,9 +209,8 @@ impl Plan {
     /// orbit is.
     pub(crate) fn is_least(&self, subdivided: Window) -> bool {
         let bits: Vec<bool> = self.members.iter().map(|&at| subdivided.contains(at)).collect();
-        let mask = |image: &[usize]| {
-            image.iter().zip(&bits).fold(0_u64, |m, (&to, &bit)| m | u64::from(bit) << to)
-        };
+        let mask =
+            |image: &[usize]| image.iter().zip(&bits).fold(0_u64, |m, (&to, &bit)| m | u64::from(bit) << to);
         let own = mask(&self.images[0]);
         self.images[1..].iter().all(|image| own <= mask(image))
     }

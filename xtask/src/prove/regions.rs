@@ -65,7 +65,10 @@ fn dodecagon() -> Vec<Offset> {
 fn kites(d: Direction) -> [Vec<Offset>; 2] {
     let next = d.turned(1);
     let (inner, corner) = (towards_corner(d, 1, 6), towards_corner(d, 1, 3));
-    [vec![axis(d, 2, 7), axis(d, 1, 2), corner, inner], vec![inner, corner, axis(next, 1, 2), axis(next, 2, 7)]]
+    [
+        vec![axis(d, 2, 7), axis(d, 1, 2), corner, inner],
+        vec![inner, corner, axis(next, 1, 2), axis(next, 2, 7)],
+    ]
 }
 
 fn axis(d: Direction, numerator: i64, denominator: i64) -> Offset {
@@ -103,7 +106,8 @@ fn occupied2() -> Region {
 
 /// The product's shift for a polygon, asked at its centre of mass.
 fn shift_for(kite: &[Offset], corner: Direction) -> Offset {
-    let mean = kite.iter().fold(Offset::ZERO, |a, &b| a + b).cartesian() / (kite.len() as f64 * SEVENTH as f64);
+    let mean =
+        kite.iter().fold(Offset::ZERO, |a, &b| a + b).cartesian() / (kite.len() as f64 * SEVENTH as f64);
     let at = Located { hex: Hex::ORIGIN, offset: mean };
     debug_assert!(!ring_may_stay(&at), "{corner:?}");
     ring_shift(&at)
@@ -333,7 +337,8 @@ mod tests {
     #[test]
     fn a_larger_region_is_refused() {
         let mut tally = Tally::default();
-        let larger: Vec<_> = dodecagon().into_iter().map(|p| Offset { q: p.q + p.q / 1000, r: p.r + p.r / 1000 }).collect();
+        let larger: Vec<_> =
+            dodecagon().into_iter().map(|p| Offset { q: p.q + p.q / 1000, r: p.r + p.r / 1000 }).collect();
         for d in Direction::ALL {
             tally.region(&larger, neighbour(d, Offset::ZERO), neighbour(d.turned(1), Offset::ZERO));
         }

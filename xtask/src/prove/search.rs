@@ -14,6 +14,7 @@ use super::fires::Fires;
 use super::pattern::{Plan, Unit};
 use hexdel_classify::dual::local::{LocalTriangle, Place};
 use hexdel_classify::{Classes, ExactBounds, Offset};
+use hexdel_geom::AngleBounds;
 use hexdel_grid::Window;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -63,9 +64,10 @@ pub(crate) struct Found {
     /// Patterns whose triangles break the bounds and that no continuation
     /// makes legal.
     pub(crate) refused: u64,
-    /// Legal configurations that break the bounds: the proof has failed.
+    /// Angles of legal configurations that break the bounds: the proof has
+    /// failed.
     pub(crate) counterexamples: Vec<Witness>,
-    /// Patterns that break the bounds and could neither be given up nor
+    /// Angles of patterns that break the bounds and could neither be given up nor
     /// closed: the proof has failed as well.
     pub(crate) undecided: Vec<Witness>,
     /// Finer corners without a semi-hexagon beside them, which finer levels
@@ -241,13 +243,15 @@ impl Search<'_> {
 
     /// Continues a pattern that breaks the bounds until the rules forbid it.
     fn refute(&mut self, pattern: Window, broken: LocalTriangle) {
-        let witness = self.plan.worst(pattern, &broken);
         let known = self.found.counterexamples.len() + self.found.undecided.len();
         let budget = if known < ENOUGH { Budget::new(50, 200_000) } else { Budget::new(1, 1) };
         match self.end_of(pattern, budget) {
-            End::Legal(subdivided) => self.found.counterexamples.push(Witness { subdivided, ..witness }),
+            End::Legal(subdivided) => {
+                let broken = self.plan.broken_angles(pattern, &broken);
+                self.found.counterexamples.extend(broken.map(|w| Witness { subdivided, ..w }));
+            }
             End::Dead => self.found.refused += 1,
-            End::Unknown => self.found.undecided.push(witness),
+            End::Unknown => self.found.undecided.extend(self.plan.broken_angles(pattern, &broken)),
         }
     }
 
@@ -337,12 +341,13 @@ impl Plan {
         })
     }
 
-    /// The angle of a triangle that is farthest from 60 degrees, relative to
-    /// how far it may be.
-    fn worst(&self, subdivided: Window, t: &LocalTriangle) -> Witness {
-        let off = |w: &Witness| if w.angle_deg < 60.0 { (60.0 - w.angle_deg) / 16.1 } else { (w.angle_deg - 60.0) / 30.0 };
-        let [a, b, c] = self.witnesses(subdivided, t);
-        [b, c].into_iter().fold(a, |x, y| if off(&y) > off(&x) { y } else { x })
+    /// The angles of a triangle that are beyond the bounds.
+    fn broken_angles(&self, subdivided: Window, t: &LocalTriangle) -> impl Iterator<Item = Witness> + use<> {
+        let bounds = AngleBounds::EXTENDED;
+        let outside = move |w: &Witness| {
+            w.angle_deg < bounds.min_deg() - SAME_DEG || w.angle_deg > bounds.max_deg() + SAME_DEG
+        };
+        self.witnesses(subdivided, t).into_iter().filter(outside)
     }
 }
 

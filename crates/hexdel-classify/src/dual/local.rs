@@ -31,6 +31,10 @@ pub struct LocalTriangle {
 
 /// The triangles that a lattice triangle, counter-clockwise, stands for: none
 /// if a corner is a `MovedCenter3` (its star covers it) or all are subdivided.
+///
+/// # Panics
+///
+/// Never: leaves without a vertex are left to their stars.
 pub fn of_lattice_triangle(classes: &Classes, corners: [Hex; 3], mut push: impl FnMut(LocalTriangle)) {
     if corners.iter().any(|&at| classes.moved3.contains(at)) {
         return;
@@ -52,6 +56,11 @@ pub fn of_lattice_triangle(classes: &Classes, corners: [Hex; 3], mut push: impl 
 }
 
 /// The triangles of the star of a `MovedCenter3`; none for any other hexagon.
+///
+/// # Panics
+///
+/// If a corner has no vertex, which no legal grid shows: a hexagon beside the
+/// star of a `MovedCenter3` that is itself a single one of another run.
 pub fn of_star(classes: &Classes, at: Hex, mut push: impl FnMut(LocalTriangle)) {
     if let Some(star) = Star::of(classes, at) {
         star::emit(star, at, &Coded, |ids| push(located(classes, ids.map(decoded))));
@@ -124,7 +133,8 @@ mod tests {
     #[test]
     fn a_single_star_has_twelve_triangles_with_area() {
         let centre = Hex::new(4, 4);
-        let classes = Classes::of([(5, 4), (4, 5), (5, 3)].map(|(q, r)| Hex::new(q, r)).into_iter().collect());
+        let classes =
+            Classes::of([(5, 4), (4, 5), (5, 3)].map(|(q, r)| Hex::new(q, r)).into_iter().collect());
         let mut count = 0;
         of_star(&classes, centre, |t| {
             count += 1;
