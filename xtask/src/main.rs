@@ -2,6 +2,7 @@
 
 mod bench;
 mod ci;
+mod prove;
 mod regen;
 mod tidy;
 
@@ -31,6 +32,17 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Prove by enumeration that every triangle keeps 43.9 to 90 degrees, and
+    /// write docs/proof.md
+    Prove {
+        /// Leave a rule away, by its name; nothing is written then
+        #[arg(long, value_name = "RULE")]
+        without: Vec<String>,
+        /// One unit of each kind instead of all orientations; nothing is
+        /// written
+        #[arg(long)]
+        reduced: bool,
+    },
 }
 
 /// What a task returns: nothing, or what went wrong.
@@ -42,6 +54,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(),
         Task::Bench(args) => bench::run(&args),
         Task::Regen { check } => regen::run(check),
+        Task::Prove { without, reduced } => prove::run(&without, reduced),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,11 +1,10 @@
 //! The triangle rule, which section 5.2 lacks.
 //!
-//! With the paper's rules alone, angles down to 28.4 and up to 98 degrees
-//! remain where two fronts face each other across a strip of two coarse
-//! hexagons, and where a top touches a hexagon moved by another front. Since
-//! relocations come from a small finite set, whether a triangle keeps the
-//! bounds is decided exactly; where it does not, its most-moved corner is
-//! subdivided.
+//! Without it, angles down to 33.3 and up to 93.4 degrees remain where two
+//! fronts face each other across a strip of two coarse hexagons, and where a
+//! top touches a hexagon moved by another front. Since relocations come from a
+//! small finite set, whether a triangle keeps the bounds is decided exactly;
+//! where it does not, the corner with the most fins is subdivided.
 //!
 //! ```text
 //!     *  *  *           two fronts: the hexagons 1 above and below are pulled
@@ -55,6 +54,22 @@ impl Rule for TriangleRule {
         }
         victims
     }
+}
+
+/// The corner that the rule asks for because of one lattice triangle,
+/// counter-clockwise: what [`TriangleRule`] does for every triangle of a window.
+pub fn victim_of(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
+    let moved = c.moved1 | c.moved2 | c.moved4();
+    let foreign = |a: Hex, b: Hex| {
+        let along = Direction::ALL[..3].iter().find(|d| a.neighbour(**d) == b);
+        along.is_some_and(|&d| foreign_pairs(c, moved, d).contains(a))
+    };
+    let [x, y, z] = corners;
+    let asked = [(x, y), (y, z), (z, x)].into_iter().any(|(a, b)| foreign(a, b) || foreign(b, a));
+    let three = corners.iter().any(|&at| c.moved3.contains(at));
+    let breaks =
+        || !ExactBounds::EXTENDED.hold(corners.map(|at| Offset::of(at) + Template::of(c, at).offset()));
+    (asked && !three && breaks()).then(|| victim(c, corners))
 }
 
 /// The hexagons that are moved by another front than their neighbour in

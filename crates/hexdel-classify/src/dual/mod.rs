@@ -26,11 +26,13 @@
 //! | [`vertices`] | coordinates |
 //! | [`triangles`] | index triples |
 //! | [`star`] | the triangles around a three-finned hexagon |
+//! | [`local`] | the triangles around one place, in exact coordinates |
 
 mod brood;
 pub mod domain;
 mod fill;
 pub mod layout;
+pub mod local;
 pub mod star;
 pub mod triangles;
 pub mod vertices;

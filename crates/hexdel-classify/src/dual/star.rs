@@ -43,7 +43,7 @@ impl Star {
         Some(Self { middle, before: goes_on(5, 4), after: goes_on(1, 2) })
     }
 
-    fn single(self) -> bool {
+    pub(super) fn single(self) -> bool {
         !self.before && !self.after
     }
 }
@@ -78,6 +78,13 @@ pub(super) fn point_on_fin(subdivided: Window, hex: Hex, fin: Hex) -> Option<Off
     let points = star_points(star.middle, star.before, star.after);
     let i = (0..3).find(|&i| star.middle.turned(5 + i).step() == fin - hex)?;
     Some(points[i])
+}
+
+/// Where the point lies that is inserted between a subdivided hexagon and one
+/// that is not, relative to the window's tile; `None` if there is none.
+pub(super) fn inserted_between(subdivided: Window, a: Hex, b: Hex) -> Option<Offset> {
+    let between = |(hex, fin)| Some(Offset::of(hex) + point_on_fin(subdivided, hex, fin)?);
+    [(a, b), (b, a)].into_iter().find_map(between)
 }
 
 /// Ids of the vertices around a star.
