@@ -104,11 +104,12 @@ impl Patch {
     /// changed.
     fn coarsened(mut self, rules: &RuleSet) -> Vec<(TileId, u64)> {
         let before = self.subdivided;
-        for bit in ones(self.spare_in_centre()) {
-            let at = hex_of(bit);
-            if self.is_spare(at) {
-                let group: Window = at.disc(1).filter(|&h| self.is_spare(h)).collect();
+        let needed = self.window(&self.needed, 0, 0);
+        for at in ones(self.subdivided[12] & !self.needed[12]).map(hex_of) {
+            let spare = self.centre.without(needed);
+            if spare.contains(at) {
                 let alone = Window::from_iter([at]);
+                let group = alone.dilated() & spare;
                 let _ = self.merge(group, rules) || (group != alone && self.merge(alone, rules));
             }
         }
@@ -116,15 +117,6 @@ impl Patch {
             .filter(|&i| self.subdivided[i] != before[i])
             .filter_map(|i| Some((self.ids[i]?, self.subdivided[i])))
             .collect()
-    }
-
-    fn spare_in_centre(&self) -> u64 {
-        self.subdivided[12] & !self.needed[12]
-    }
-
-    fn is_spare(&self, at: Hex) -> bool {
-        let (i, bit) = place(at);
-        (self.subdivided[i] & !self.needed[i]) >> bit & 1 == 1
     }
 
     /// Merges hexagons if every rule still holds afterwards.

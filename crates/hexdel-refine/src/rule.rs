@@ -18,6 +18,11 @@ impl Situation {
     pub fn of(view: View) -> Self {
         Self { view, classes: Classes::of(view.subdivided) }
     }
+
+    /// Whether an input point lies in the tile itself.
+    pub fn holds_points(&self) -> bool {
+        !(self.view.occupied() & Window::with_margin(0)).is_empty()
+    }
 }
 
 /// A reason to subdivide hexagons.
