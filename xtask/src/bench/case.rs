@@ -7,9 +7,7 @@ use hexdel_classify::{Domain, extract};
 use hexdel_geom::{DVec2, Unwatched};
 use hexdel_grid::Lattice;
 use hexdel_refine::{Refiner, RuleSet};
-use spade::{
-    AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation as _,
-};
+use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation as _};
 use std::str::FromStr;
 use std::time::Instant;
 

@@ -58,8 +58,13 @@ pub(crate) fn run(args: &Args) -> Outcome {
         }
     }
     let pages = [1_000_000, 10_000_000, 100_000_000].map(|triangles| {
-        let case =
-            Case { mesher: Mesher::Memory, input: Input::Uniform, points: triangles, threads: 1, hexagon: [0.0; 3] };
+        let case = Case {
+            mesher: Mesher::Memory,
+            input: Input::Uniform,
+            points: triangles,
+            threads: 1,
+            hexagon: [0.0; 3],
+        };
         measure(&case)
     });
     let mut memory = Vec::new();
