@@ -85,8 +85,11 @@ impl Lattice {
         let s = self.spacing(level);
         let x = Double::sum(point.x, -self.origin.x);
         let y = Double::sum(point.y, -self.origin.y);
-        let r = y.value() / (s * Double::HALF_SQRT_3.hi);
-        let q = x.value() / s - 0.5 * r;
+        // A guess: multiplying by reciprocals is cheaper, and near enough.
+        const R_PER_Y: f64 = 1.0 / Double::HALF_SQRT_3.hi;
+        let per_s = 1.0 / s;
+        let r = y.value() * per_s * R_PER_Y;
+        let q = x.value() * per_s - 0.5 * r;
         let mut hex = nearest(q, r);
         // The first guess misses by the rounding of a large quotient at most,
         // so one or two steps settle it; the third is for a point on an edge.

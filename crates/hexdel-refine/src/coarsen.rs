@@ -166,7 +166,7 @@ impl Patch {
                 occupied1: Self::window(&self.marks[0], column, row),
                 occupied2: Self::window(&self.marks[1], column, row),
             };
-            rules.must_subdivide(&Situation::of(view)) == 0
+            view.is_empty() || rules.hold(&Situation::of(view))
         })
     }
 

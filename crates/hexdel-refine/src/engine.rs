@@ -312,13 +312,21 @@ impl Refiner {
         // Points come along a curve: the next one's tile is near the last's,
         // and mostly the same. What changed in it is noted once.
         let mut last: Option<(u8, TileId, u64)> = None;
+        let mut passed = None;
         for &id in sites {
             let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
+            if passed == Some((level, hex)) {
+                moving.push(id);
+                continue;
+            }
             let (tile, bit) = match last.filter(|&(l, _, _)| l == level) {
                 Some((_, near, _)) => self.grid.tiles_mut().require_near(level, near, hex),
                 None => self.grid.tile_of(Address::new(level, hex)),
             };
             let changed = self.occupy(id, (tile, bit), moving);
+            if self.grid.tiles().get(level, tile).subdivided >> bit & 1 == 1 {
+                passed = Some((level, hex));
+            }
             match &mut last {
                 Some((l, t, bits)) if (*l, *t) == (level, tile) => *bits |= changed,
                 _ => self.changed_if_any(last.replace((level, tile, changed))),

@@ -86,6 +86,12 @@ impl RuleSet {
         asked.without(situation.view.subdivided).centre()
     }
 
+    /// Whether no rule wants a hexagon of the tile subdivided that is not.
+    pub fn hold(&self, situation: &Situation) -> bool {
+        let open = Window::with_margin(0).without(situation.view.subdivided);
+        self.iter().all(|rule| (rule.must_subdivide(situation) & open).is_empty())
+    }
+
     /// The hexagons that some rule wants to exist.
     pub fn must_exist(&self, situation: &Situation) -> Window {
         self.iter().fold(Window::EMPTY, |set, rule| set | rule.must_exist(situation))
