@@ -44,7 +44,7 @@ impl Lattice {
     /// Distance of neighbouring centres at `level`: `s_0 / 2^level`, exactly.
     #[inline]
     pub fn spacing(&self, level: u8) -> f64 {
-        self.spacing * 0.5_f64.powi(i32::from(level))
+        self.spacing * f64::from_bits((1023 - u64::from(level)) << 52)
     }
 
     /// The centre of a hexagon, in input units.
@@ -85,15 +85,21 @@ impl Lattice {
         let s = self.spacing(level);
         let x = Double::sum(point.x, -self.origin.x);
         let y = Double::sum(point.y, -self.origin.y);
-        let r = y.value() / (s * Double::HALF_SQRT_3.hi);
-        let q = x.value() / s - 0.5 * r;
+        // A guess: multiplying by reciprocals is cheaper, and near enough.
+        const R_PER_Y: f64 = 1.0 / Double::HALF_SQRT_3.hi;
+        let per_s = 1.0 / s;
+        let r = y.value() * per_s * R_PER_Y;
+        let q = x.value() * per_s - 0.5 * r;
         let mut hex = nearest(q, r);
         // The first guess misses by the rounding of a large quotient at most,
         // so one or two steps settle it; the third is for a point on an edge.
         for _ in 0..3 {
             let offset = self.offset(level, hex, x, y);
+            if hexagonal_norm(offset) <= 0.5 {
+                return Located { hex, offset };
+            }
             let step = nearest(offset.x - offset.y / SQRT_3, offset.y / Double::HALF_SQRT_3.hi);
-            if step == Hex::ORIGIN || hexagonal_norm(offset) <= 0.5 {
+            if step == Hex::ORIGIN {
                 return Located { hex, offset };
             }
             hex = hex + step;
@@ -113,14 +119,17 @@ const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
 /// The lattice point nearest to fractional axial coordinates.
 fn nearest(q: f64, r: f64) -> Hex {
-    let (rq, rr, rs) = (q.round(), r.round(), (-q - r).round());
-    let (dq, dr, ds) = ((rq - q).abs(), (rr - r).abs(), (rs + q + r).abs());
+    // Half away from zero and cut off: `round` is a call into a library where
+    // the processor is not known to have it.
+    let round = |x: f64| (x + 0.5_f64.copysign(x)) as i64;
+    let (rq, rr, rs) = (round(q), round(r), round(-q - r));
+    let (dq, dr, ds) = ((rq as f64 - q).abs(), (rr as f64 - r).abs(), (rs as f64 + q + r).abs());
     if dq > dr && dq > ds {
-        Hex::new(-(rr as i64) - rs as i64, rr as i64)
+        Hex::new(-rr - rs, rr)
     } else if dr > ds {
-        Hex::new(rq as i64, -(rq as i64) - rs as i64)
+        Hex::new(rq, -rq - rs)
     } else {
-        Hex::new(rq as i64, rr as i64)
+        Hex::new(rq, rr)
     }
 }
 

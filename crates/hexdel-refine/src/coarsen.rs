@@ -95,7 +95,7 @@ impl Patch {
                 patch.marks[1][i] = tile.marks[1];
             }
         }
-        patch.centre = patch.window(&patch.subdivided, 0, 0);
+        patch.centre = Self::window(&patch.subdivided, 0, 0);
         patch
     }
 
@@ -104,11 +104,12 @@ impl Patch {
     /// changed.
     fn coarsened(mut self, rules: &RuleSet) -> Vec<(TileId, u64)> {
         let before = self.subdivided;
-        for bit in ones(self.spare_in_centre()) {
-            let at = hex_of(bit);
-            if self.is_spare(at) {
-                let group: Window = at.disc(1).filter(|&h| self.is_spare(h)).collect();
+        let needed = Self::window(&self.needed, 0, 0);
+        for at in ones(self.subdivided[12] & !self.needed[12]).map(hex_of) {
+            let spare = self.centre.without(needed);
+            if spare.contains(at) {
                 let alone = Window::from_iter([at]);
+                let group = alone.dilated() & spare;
                 let _ = self.merge(group, rules) || (group != alone && self.merge(alone, rules));
             }
         }
@@ -116,15 +117,6 @@ impl Patch {
             .filter(|&i| self.subdivided[i] != before[i])
             .filter_map(|i| Some((self.ids[i]?, self.subdivided[i])))
             .collect()
-    }
-
-    fn spare_in_centre(&self) -> u64 {
-        self.subdivided[12] & !self.needed[12]
-    }
-
-    fn is_spare(&self, at: Hex) -> bool {
-        let (i, bit) = place(at);
-        (self.subdivided[i] & !self.needed[i]) >> bit & 1 == 1
     }
 
     /// Merges hexagons if every rule still holds afterwards.
@@ -170,16 +162,16 @@ impl Patch {
         [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(|&i| reached[i]).all(|i| {
             let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
             let view = View {
-                subdivided: self.window(&self.subdivided, column, row),
-                occupied1: self.window(&self.marks[0], column, row),
-                occupied2: self.window(&self.marks[1], column, row),
+                subdivided: Self::window(&self.subdivided, column, row),
+                occupied1: Self::window(&self.marks[0], column, row),
+                occupied2: Self::window(&self.marks[1], column, row),
             };
-            rules.must_subdivide(&Situation::of(view)) == 0
+            view.is_empty() || rules.hold(&Situation::of(view))
         })
     }
 
     /// The window of one of the nine inner tiles.
-    fn window(&self, plane: &[u64; 25], column: i64, row: i64) -> Window {
+    fn window(plane: &[u64; 25], column: i64, row: i64) -> Window {
         let tiles = |r: i64| [-1, 0, 1].map(|c| plane[index(column + c, row + r)]);
         Window::gather(&[tiles(-1), tiles(0), tiles(1)])
     }

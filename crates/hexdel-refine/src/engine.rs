@@ -287,11 +287,16 @@ impl Refiner {
     /// Subdivides hexagons of a tile. The points that occupy them are added to
     /// `moving`.
     fn subdivide(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) {
+        let subdivided = self.mark_subdivided(level, id, bits, moving);
+        if subdivided != 0 {
+            self.changed(level, id, subdivided);
+        }
+    }
+
+    /// The same without noting the change; returns what was not subdivided yet.
+    fn mark_subdivided(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) -> u64 {
         let tile = self.grid.tiles_mut().get_mut(level, id);
         let bits = bits & !tile.subdivided;
-        if bits == 0 {
-            return;
-        }
         tile.subdivided |= bits;
         let occupied = bits & (tile.marks[0] | tile.marks[1]);
         tile.marks = tile.marks.map(|plane| plane & !bits);
@@ -299,7 +304,7 @@ impl Refiner {
             let site = self.sites.leave(level, id, bit);
             moving.push(site.expect("a marked hexagon has an occupant"));
         }
-        self.changed(level, id, bits);
+        bits
     }
 
     /// Puts points one level down.
@@ -326,34 +331,53 @@ impl Refiner {
     /// Lets points occupy their hexagons. If one is subdivided its point moves
     /// on, if it is occupied both do.
     fn occupy_all(&mut self, sites: &[u32], moving: &mut Vec<u32>) {
-        // Points come along a curve: the next one's tile is near the last's.
-        let mut hint: Option<(u8, TileId)> = None;
+        // Points come along a curve: the next one's tile is near the last's,
+        // and mostly the same. What changed in it is noted once.
+        let mut last: Option<(u8, TileId, u64)> = None;
+        let mut passed = None;
         for &id in sites {
             let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
-            let (tile, bit) = match hint.filter(|&(l, _)| l == level) {
-                Some((_, near)) => self.grid.tiles_mut().require_near(level, near, hex),
+            if passed == Some((level, hex)) {
+                moving.push(id);
+                continue;
+            }
+            let (tile, bit) = match last.filter(|&(l, _, _)| l == level) {
+                Some((_, near, _)) => self.grid.tiles_mut().require_near(level, near, hex),
                 None => self.grid.tile_of(Address::new(level, hex)),
             };
-            hint = Some((level, tile));
-            self.occupy(id, (tile, bit), moving);
+            let changed = self.occupy(id, (tile, bit), moving);
+            if self.grid.tiles().get(level, tile).subdivided >> bit & 1 == 1 {
+                passed = Some((level, hex));
+            }
+            match &mut last {
+                Some((l, t, bits)) if (*l, *t) == (level, tile) => *bits |= changed,
+                _ => self.changed_if_any(last.replace((level, tile, changed))),
+            }
         }
+        self.changed_if_any(last);
     }
 
-    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32), moving: &mut Vec<u32>) {
+    /// Returns what changed in the tile: the point's hexagon, or nothing.
+    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32), moving: &mut Vec<u32>) -> u64 {
         let level = self.sites.get(site).level;
         let tile = self.grid.tiles_mut().get_mut(level, id);
         if tile.subdivided >> bit & 1 == 1 {
             moving.push(site);
-            return;
+            return 0;
         }
         if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
             moving.push(site);
-            self.subdivide(level, id, 1 << bit, moving);
-            return;
+            return self.mark_subdivided(level, id, 1 << bit, moving);
         }
         tile.marks[self.sites.get(site).plane()] |= 1 << bit;
         self.sites.enter(site, id);
-        self.changed(level, id, 1 << bit);
+        1 << bit
+    }
+
+    fn changed_if_any(&mut self, change: Option<(u8, TileId, u64)>) {
+        if let Some((level, id, bits)) = change.filter(|&(_, _, bits)| bits != 0) {
+            self.changed(level, id, bits);
+        }
     }
 
     /// Notes that hexagons of a tile changed: all tiles that see them are to be

@@ -50,7 +50,7 @@ impl Rule for MovedInRing {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        if s.view.subdivided.is_empty() || (s.view.occupied() & Window::with_margin(0)).is_empty() {
+        if s.view.subdivided.is_empty() || !s.holds_points() {
             return Window::EMPTY;
         }
         let moved = s.view.subdivided.dilated() | s.classes.moved4();
@@ -69,6 +69,9 @@ impl Rule for OccupiedRings {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
+        if !s.holds_points() {
+            return Window::EMPTY;
+        }
         let (one, two) = (s.view.occupied1, s.view.occupied2);
         let mut close = Window::EMPTY;
         if !one.is_empty() {
@@ -171,15 +174,19 @@ impl Rule for TwoFinsBesideRun {
             return Window::EMPTY;
         }
         let mut set = Window::EMPTY;
-        for d in (0..6).filter(|&d| !c.middle[d].is_empty()) {
-            let turned = |by: usize| Direction::new(d + by);
+        for d in 0..6 {
             // Around the top at -d, the next lies at d + 2, the one before at
             // d - 2; the hexagon beyond it in the same direction again.
-            let (next, before) = (turned(2), turned(4));
-            let last = c.middle[d] & c.middle[(d + 5) % 6].at(before) & c.moved2.at(next);
-            set |= last.moved(next).moved(next);
-            let first = c.middle[d] & c.middle[(d + 1) % 6].at(next) & c.moved2.at(before);
-            set |= first.moved(before).moved(before);
+            let (next, before) = (Direction::new(d + 2), Direction::new(d + 4));
+            let with_next = c.middle[d] & c.middle[(d + 1) % 6].at(next);
+            if with_next.is_empty() {
+                continue;
+            }
+            // The first of the two, and the second as its neighbour sees it:
+            // its middle fin is one direction on.
+            set |= (with_next & c.moved2.at(before)).moved(before).moved(before);
+            let (second, after) = (with_next.moved(next), Direction::new(d + 3));
+            set |= (second & c.moved2.at(after)).moved(after).moved(after);
         }
         set
     }

@@ -19,6 +19,11 @@ impl Situation {
     pub fn of(view: View) -> Self {
         Self { view, classes: Classes::of(view.subdivided) }
     }
+
+    /// Whether an input point lies in the tile itself.
+    pub fn holds_points(&self) -> bool {
+        !(self.view.occupied() & Window::with_margin(0)).is_empty()
+    }
 }
 
 /// A reason to subdivide hexagons.
@@ -86,6 +91,12 @@ impl RuleSet {
     pub fn must_subdivide(&self, situation: &Situation) -> u64 {
         let asked = self.iter().fold(Window::EMPTY, |set, rule| set | rule.must_subdivide(situation));
         asked.without(situation.view.subdivided).centre()
+    }
+
+    /// Whether no rule wants a hexagon of the tile subdivided that is not.
+    pub fn hold(&self, situation: &Situation) -> bool {
+        let open = Window::with_margin(0).without(situation.view.subdivided);
+        self.iter().all(|rule| (rule.must_subdivide(situation) & open).is_empty())
     }
 
     /// The hexagons that some rule wants to exist.

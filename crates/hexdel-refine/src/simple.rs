@@ -33,8 +33,10 @@ impl Rule for AdjacentOccupied {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        let occupied = s.view.occupied();
-        if occupied.is_empty() { occupied } else { occupied & occupied.others_within(1) }
+        if !s.holds_points() {
+            return Window::EMPTY;
+        }
+        s.view.occupied() & s.view.occupied().others_within(1)
     }
 }
 
@@ -63,7 +65,9 @@ impl Rule for OccupiedBesideFiner {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        let occupied = s.view.occupied();
-        if occupied.is_empty() { occupied } else { occupied & s.view.subdivided.others_within(1) }
+        if !s.holds_points() {
+            return Window::EMPTY;
+        }
+        s.view.occupied() & s.view.subdivided.others_within(1)
     }
 }

@@ -35,9 +35,11 @@ impl Site {
 /// neighbours in the plane are mostly neighbours in memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sites {
-    sites: Vec<Site>,
+    all: Vec<Site>,
     /// The site id of each point, in the order of adding. A permutation.
     rank: Vec<u32>,
+    /// The tile of each site's hexagon; meaningless while it descends.
+    tile: Vec<TileId>,
     /// The next site that occupies a hexagon of the same tile, or [`NONE`].
     next: Vec<u32>,
     /// The first site of each tile, by level and tile id, or [`NONE`]; none
@@ -50,36 +52,37 @@ const NONE: u32 = u32::MAX;
 impl Sites {
     /// Adds points, all on level 0. Returns their ids, ascending.
     pub(crate) fn add(&mut self, lattice: &Lattice, points: &[DVec2]) -> Vec<u32> {
-        let first = self.sites.len();
+        let first = self.all.len();
         let mut order: Vec<(u64, u32)> =
             points.par_iter().enumerate().map(|(i, &p)| (along_curve(lattice, p), i as u32)).collect();
         order.par_sort_unstable();
-        self.sites.par_extend(order.par_iter().map(|&(_, i)| Site::new(lattice, 0, points[i as usize])));
-        self.next.resize(self.sites.len(), NONE);
-        self.rank.resize(self.sites.len(), NONE);
+        self.all.par_extend(order.par_iter().map(|&(_, i)| Site::new(lattice, 0, points[i as usize])));
+        self.next.resize(self.all.len(), NONE);
+        self.tile.resize(self.all.len(), TileId::new(0));
+        self.rank.resize(self.all.len(), NONE);
         for (site, &(_, i)) in (first..).zip(&order) {
             self.rank[first + i as usize] = site as u32;
         }
-        (first as u32..self.sites.len() as u32).collect()
+        (first as u32..self.all.len() as u32).collect()
     }
 
     /// The points and the leaves they occupy, in the order of adding.
     pub(crate) fn occupants(&self) -> Vec<Occupant> {
         let occupant = |&id: &u32| {
-            let s = &self.sites[id as usize];
-            Occupant { level: s.level, at: s.at, point: s.point }
+            let s = &self.all[id as usize];
+            Occupant { level: s.level, at: s.at, tile: self.tile[id as usize], point: s.point }
         };
-        self.rank.iter().map(occupant).collect()
+        self.rank.par_iter().map(occupant).collect()
     }
 
     #[inline]
     pub(crate) fn get(&self, id: u32) -> &Site {
-        &self.sites[id as usize]
+        &self.all[id as usize]
     }
 
     #[inline]
     pub(crate) fn get_mut(&mut self, id: u32) -> &mut Site {
-        &mut self.sites[id as usize]
+        &mut self.all[id as usize]
     }
 
     /// Which point a site is, in the order of adding. Takes a search.
@@ -98,6 +101,7 @@ impl Sites {
         if tile.index() >= heads.len() {
             heads.resize((tile.index() + 1).next_power_of_two(), NONE);
         }
+        self.tile[id as usize] = tile;
         self.next[id as usize] = std::mem::replace(&mut heads[tile.index()], id);
     }
 
@@ -108,7 +112,7 @@ impl Sites {
         let (mut before, mut id) = (NONE, *head);
         while id != NONE {
             let after = self.next[id as usize];
-            if bit_of(self.sites[id as usize].at.hex) == bit {
+            if bit_of(self.all[id as usize].at.hex) == bit {
                 *(if before == NONE { head } else { &mut self.next[before as usize] }) = after;
                 return Some(id);
             }

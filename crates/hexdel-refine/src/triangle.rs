@@ -77,10 +77,16 @@ pub fn victim_of(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
 /// a three-finned hexagon beside the other.
 fn foreign_pairs(c: &Classes, moved: Window, d: Direction) -> Window {
     let side = |by: usize| d.turned(by);
-    let shared = c.subdivided.at(side(1)) | c.subdivided.at(side(5));
+    let pairs = moved & moved.at(d);
+    if pairs.is_empty() {
+        return pairs;
+    }
+    let foreign = pairs.without(c.subdivided.at(side(1)) | c.subdivided.at(side(5)));
+    if c.moved3.is_empty() {
+        return foreign;
+    }
     let under = |by: usize| c.under[side(by).index()];
-    let top = under(1) | under(5) | (under(2) | under(4)).at(d);
-    (moved & moved.at(d)).without(shared | top)
+    foreign.without(under(1) | under(5) | (under(2) | under(4)).at(d))
 }
 
 /// Where a vertex goes that is not a `MovedCenter3`: 0 if it stays, otherwise

@@ -42,7 +42,7 @@ pub use layout::Layout;
 
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
 use hexdel_geom::{DVec2, TriMesh, VertexId};
-use hexdel_grid::{Grid, Located};
+use hexdel_grid::{Grid, Located, TileId};
 use thiserror::Error;
 
 /// An input point and the leaf it occupies.
@@ -52,6 +52,8 @@ pub struct Occupant {
     pub level: u8,
     /// The leaf and the place in it.
     pub at: Located,
+    /// The tile that holds the leaf.
+    pub tile: TileId,
     /// The point, as given.
     pub point: DVec2,
 }

@@ -130,16 +130,16 @@ struct Moved {
 impl Moved {
     fn of(layout: &Layout, occupant: &Occupant, relocation: Relocation) -> Self {
         let (level, hex) = (occupant.level, occupant.at.hex);
-        let (id, bit) =
-            layout.grid.tiles().find(level, hex).expect("an occupied hexagon exists and has a tile");
+        let id = occupant.tile;
+        let at = hex - layout.grid.tiles().get(level, id).first();
         let ring = (relocation == Relocation::Full && !ring_may_stay(&occupant.at)).then(|| {
             let shift = ring_shift(&occupant.at);
             Direction::ALL.map(|d| {
                 let to = Frame::at(layout.grid.lattice(), level, hex.neighbour(d)).place(shift);
-                (vertex_beside(layout, level, id, hex_of(bit) + d.step()), to)
+                (vertex_beside(layout, level, id, at + d.step()), to)
             })
         });
-        Self { vertex: layout.block(level, id).vertex(bit), ring }
+        Self { vertex: vertex_beside(layout, level, id, at), ring }
     }
 }
 
