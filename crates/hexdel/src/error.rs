@@ -13,7 +13,7 @@ pub enum Error {
     #[error(transparent)]
     Points(#[from] PointsError),
     /// A coordinate is so large that its square leaves the range of numbers.
-    #[error("point {index} at ({}, {}) is beyond {limit:e}", point.x, point.y)]
+    #[error("point {index} at ({:?}, {:?}) is beyond {limit:e}", point.x, point.y)]
     OutOfRange {
         /// Index of the point.
         index: usize,
@@ -25,7 +25,7 @@ pub enum Error {
     /// Two points are closer than their coordinates can resolve: vertices
     /// between them would be rounded by more than angles bear.
     #[error(
-        "points {a} at ({}, {}) and {b} at ({}, {}) are {distance:e} apart, closer than the {least:e} \
+        "points {a} at ({:?}, {:?}) and {b} at ({:?}, {:?}) are {distance:e} apart, closer than the {least:e} \
          that coordinates of this size resolve",
         points[0].x, points[0].y, points[1].x, points[1].y
     )]
@@ -42,7 +42,7 @@ pub enum Error {
         least: f64,
     },
     /// The domain asked for leaves too little room around the points.
-    #[error("a domain of radius {radius} is too small: these points need about {least}")]
+    #[error("a domain of radius {radius:?} is too small: these points need about {least:?}")]
     DomainTooSmall {
         /// The radius asked for.
         radius: f64,
@@ -50,8 +50,17 @@ pub enum Error {
         /// grid follows the radius, so that a second, larger one may be named.
         least: f64,
     },
+    /// The domain asked for is so much larger than the distance of the closest
+    /// points that the levels run out.
+    #[error("a domain of radius {radius:?} is too large: for points this close it may be up to {most:?}")]
+    DomainTooLarge {
+        /// The radius asked for.
+        radius: f64,
+        /// A radius that would do.
+        most: f64,
+    },
     /// The domain asked for is not a positive number.
-    #[error("{radius} is no radius of a domain")]
+    #[error("{radius:?} is no radius of a domain")]
     InvalidRadius {
         /// The radius asked for.
         radius: f64,

@@ -73,6 +73,9 @@ impl Placement {
             }
         };
         if last_level >= Grid::MAX_LEVELS {
+            if let Some(radius) = radius.filter(|r| *r > LEVEL_0_SPACINGS * circle.radius) {
+                return Err(Error::DomainTooLarge { radius, most: doubled(finest, Grid::MAX_LEVELS - 1) });
+            }
             let least = halved(circle.radius * CONFLICT_REACH, Grid::MAX_LEVELS - 4);
             return Err(too_close(points, &pair, least));
         }
@@ -227,6 +230,16 @@ mod tests {
             assert_eq!(halved(size, levels), 0.3);
         }
         assert_eq!((levels_between(0.0, 1.0), levels_between(f64::INFINITY, 1e300)), (0, 28));
+    }
+
+    #[test]
+    fn a_domain_beyond_all_levels_is_named() {
+        let points = PointSet::new(&[DVec2::ZERO, DVec2::X]).unwrap();
+        let Err(Error::DomainTooLarge { radius, most }) = Placement::new(&points, Some(1e100)) else {
+            panic!("1e100 is a large domain for points 1 apart");
+        };
+        assert!(radius == 1e100 && most < 1e100);
+        assert!(Placement::new(&points, Some(most)).is_ok());
     }
 
     #[test]

@@ -53,7 +53,7 @@ fn points_too_close_to_tell_apart() {
     };
     assert_eq!(([a, b], [p, q]), ([2, 4], [points[2], points[4]]));
     assert!(distance < least && distance == 8.0 * f64::EPSILON);
-    assert!(error.to_string().starts_with("points 2 at (1, 1) and 4 at (1.000000000000001"), "{error}");
+    assert!(error.to_string().starts_with("points 2 at (1.0, 1.0) and 4 at (1.000000000000001"), "{error}");
 }
 
 /// Coordinates resolve less far from the origin: there a pair may be too close
