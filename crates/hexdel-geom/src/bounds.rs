@@ -27,9 +27,12 @@ pub enum BoundsError {
 }
 
 impl AngleBounds {
-    /// What the relocated dual keeps: `atan(5 / (3 sqrt 3))` = 43.8978.. to 90
-    /// degrees (paper, section 5.4 and 6.1).
-    pub const EXTENDED: Self = Self { min_deg: 43.897_886_248_013_98, max_deg: 90.0 };
+    /// What the relocated dual keeps: 43.8978 to 90 degrees.
+    ///
+    /// The templates keep `atan(5 / (3 sqrt 3))` = 43.89788.. (paper, sections
+    /// 5.4 and 6.1). The bound is rounded down after four decimals, so that a
+    /// vertex may be rounded by a millionth of an edge before an angle is past it.
+    pub const EXTENDED: Self = Self { min_deg: 43.8978, max_deg: 90.0 };
 
     /// What the plain dual keeps: 30 to 120 degrees (paper, section 4.3).
     pub const SIMPLE: Self = Self { min_deg: 30.0, max_deg: 120.0 };

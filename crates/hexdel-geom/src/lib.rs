@@ -16,6 +16,7 @@
 //! | [`quality`] | angles and aspect ratio of one triangle |
 //! | [`certificate`] | [`certify`]: what a finished mesh keeps, checked from scratch |
 //! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
+//! | [`rounding`] | [`settle_rounding`]: moves by units in the last place where rounding spoilt an angle |
 //! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
 
 pub mod bounds;
@@ -29,6 +30,7 @@ pub mod points;
 pub mod predicates;
 pub mod pslg;
 pub mod quality;
+pub mod rounding;
 
 mod double_double;
 mod incidence;
@@ -47,3 +49,4 @@ pub use monitor::{Cancelled, Monitor, Phase, Unwatched};
 pub use points::{PointSet, PointsError};
 pub use predicates::{incircle, orient2d};
 pub use pslg::{Pslg, PslgLayoutError, Region};
+pub use rounding::settle_rounding;

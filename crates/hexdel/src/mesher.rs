@@ -7,7 +7,7 @@ use hexdel_classify::{Domain, Dual, Relocation, extract};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
-    certify, restore_delaunay,
+    certify, restore_delaunay, settle_rounding,
 };
 use hexdel_refine::{Refiner, RuleSet};
 use std::time::Instant;
@@ -286,7 +286,8 @@ impl Mesher {
         for vertex in &dual.vertex_of_occupant {
             fixed[vertex.index()] = true;
         }
-        restore_delaunay(&mut dual.mesh, self.method.bounds(), |v: VertexId| !fixed[v.index()])?;
+        let free = |v: VertexId| !fixed[v.index()];
+        restore_delaunay(&mut dual.mesh, self.method.bounds(), free)?;
         let total = dual.mesh.triangles.len() as u64;
         monitor.progress(Phase::Certify, total / 2, total);
         check(monitor)?;
@@ -296,7 +297,12 @@ impl Mesher {
             min_edge: placement.shortest_edge,
             ..CertifyOptions::default()
         };
-        let certificate = certify(&dual.mesh, &options);
+        let mut certificate = certify(&dual.mesh, &options);
+        if certificate.rounding_limited > 0 {
+            settle_rounding(&mut dual.mesh, bounds, free);
+            restore_delaunay(&mut dual.mesh, self.method.bounds(), free)?;
+            certificate = certify(&dual.mesh, &options);
+        }
         monitor.progress(Phase::Certify, total, total);
         if certificate.holds() {
             return Ok(certificate);
