@@ -86,9 +86,8 @@ impl Lattice {
         let x = Double::sum(point.x, -self.origin.x);
         let y = Double::sum(point.y, -self.origin.y);
         // A guess: multiplying by reciprocals is cheaper, and near enough.
-        const R_PER_Y: f64 = 1.0 / Double::HALF_SQRT_3.hi;
         let per_s = 1.0 / s;
-        let r = y.value() * per_s * R_PER_Y;
+        let r = y.value() * per_s / Double::HALF_SQRT_3.hi;
         let q = x.value() * per_s - 0.5 * r;
         let mut hex = nearest(q, r);
         // The first guess misses by the rounding of a large quotient at most,
