@@ -1,0 +1,77 @@
+//! What is wrong with a triangle.
+
+use crate::net::{Kind, NONE, Net};
+use hexdel_geom::{AngleBounds, DVec2, quality};
+
+/// An angle past its bound by this many degrees is still within: the
+/// certificate's tolerance.
+const TOLERANCE_DEG: f64 = hexdel_geom::ANGLE_TOLERANCE_DEG;
+
+/// Ring from which on triangles keep the bounds of the plain mesh.
+pub(crate) const FAR_RING: u32 = 2;
+
+/// The bounds of a mesh with segments in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judge {
+    /// Triangles with a vertex less than [`FAR_RING`] edges from a point or
+    /// segment.
+    pub(crate) near: AngleBounds,
+    /// All others.
+    pub(crate) far: AngleBounds,
+}
+
+/// The smallest and largest angle allowed at a corner, degrees.
+pub(crate) type Limits = [f64; 2];
+
+impl Judge {
+    /// The bounds at the three corners.
+    pub(crate) fn limits(&self, net: &Net, t: u32) -> [Limits; 3] {
+        let tri = net.tri(t);
+        let is_near = tri.v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
+        let bounds = if is_near { self.near } else { self.far };
+        let [lo, hi] = [bounds.min_deg(), bounds.max_deg()];
+        [0, 1, 2].map(|i| if is_sector(net, t, i) { [0.0, hi] } else { [lo, hi] })
+    }
+
+    /// The squares of what angles are past their bounds by, degrees, summed;
+    /// 0 exactly if the triangle is in order.
+    pub(crate) fn penalty(&self, net: &Net, t: u32) -> f64 {
+        penalty(net.corners(t), self.limits(net, t))
+    }
+
+    /// The sum over triangles.
+    pub(crate) fn sum(&self, net: &Net, tris: &[u32]) -> f64 {
+        tris.iter().map(|&t| self.penalty(net, t)).sum()
+    }
+}
+
+/// Whether the corner is an input point between two parts of segments: its
+/// angle is the input's, and not for the mesh to choose.
+pub(crate) fn is_sector(net: &Net, t: u32, i: usize) -> bool {
+    let tri = net.tri(t);
+    tri.s[(i + 1) % 3] != NONE
+        && tri.s[(i + 2) % 3] != NONE
+        && matches!(net.vertex(tri.v[i]).kind, Kind::Site(_))
+}
+
+/// The penalty of a triangle against limits.
+pub(crate) fn penalty(corners: [DVec2; 3], limits: [Limits; 3]) -> f64 {
+    let tolerance = TOLERANCE_DEG + rounding_deg(corners);
+    let angles = quality::angles_deg(corners);
+    (0..3)
+        .map(|i| {
+            let past = (limits[i][0] - angles[i]).max(angles[i] - limits[i][1]);
+            if past > tolerance { past * past } else { 0.0 }
+        })
+        .sum()
+}
+
+/// What rounding the corners alone may do to an angle, degrees: no more than
+/// the certificate grants.
+///
+/// It grants `ulp(x) (1/|ab| + 1/|ac|)` radians at least, `ulp(x) >= eps |x| / 2`.
+fn rounding_deg([a, b, c]: [DVec2; 3]) -> f64 {
+    let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
+    let longest_sq = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+    (largest * f64::EPSILON / longest_sq.sqrt()).to_degrees()
+}

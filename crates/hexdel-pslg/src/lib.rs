@@ -1,0 +1,20 @@
+//! Triangle meshes of planar straight-line graphs.
+mod carve;
+mod embed;
+mod error;
+mod field;
+mod fit;
+mod geometry;
+mod mesher;
+mod net;
+mod options;
+mod output;
+mod result;
+mod sectors;
+mod sizing;
+mod validate;
+pub use error::{Feature, PslgError, ValidateError};
+pub use mesher::mesh;
+pub use options::{Extent, Options};
+pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
+pub use validate::{Divided, Validated, validate, violations};

@@ -1,0 +1,155 @@
+//! From a valid graph to its mesh: the order of things.
+
+use crate::carve::carve;
+use crate::embed::embed;
+use crate::error::PslgError;
+use crate::fit::judge::Judge;
+use crate::fit::{bad_triangles, optimise};
+use crate::net::Net;
+use crate::options::{Extent, Options};
+use crate::output::{self, Parts};
+use crate::result::PslgMesh;
+use crate::sectors::{Sector, narrow_sectors, sector_near};
+use crate::sizing::{Demand, Features, lattice_for, refine};
+use crate::validate::{Piece, Validated};
+use hexdel_classify::{Domain, DualError, Relocation, extract};
+use hexdel_geom::monitor::check;
+use hexdel_geom::{Monitor, smallest_enclosing_circle};
+use hexdel_grid::Lattice;
+
+/// Where a triangle has failed, hexagons are made this much smaller than its
+/// edges; levels being powers of two, that is one level.
+const REFINEMENT: f64 = 0.6;
+
+/// Edge lengths around a failed triangle within which that happens.
+const REFINED_RADIUS: f64 = 1.5;
+
+/// Meshes a planar straight-line graph.
+///
+/// # Guarantees
+///
+/// Every input point in the extent is a vertex, bit for bit; every segment in
+/// it is a union of edges, whose other vertices are the doubles nearest to
+/// points of the segment. Every triangle is counter-clockwise, exactly, for the
+/// coordinates as they are. Triangles that do not keep their bounds are listed
+/// with the reason; that there are none is not guaranteed, but where segments
+/// meet at 30 degrees or more it is what to expect. Same input, same bytes, at
+/// any number of threads.
+///
+/// # Errors
+///
+/// [`PslgError`]. Work is bounded by [`Options::max_triangles`] and
+/// [`Options::retries`].
+///
+/// # Complexity
+///
+/// Near-linear in the number of triangles.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::{DVec2, Pslg, Unwatched};
+/// use hexdel_pslg::{Extent, Options, mesh, validate};
+///
+/// let mut square = Pslg::from_points(
+///     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec2::new(x, y)).to_vec(),
+/// );
+/// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0]];
+/// let made = mesh(&validate(&square)?, &Options::new().extent(Extent::Inside), &Unwatched)?;
+/// assert!(made.holds() && made.certificate.max_angle_deg <= 90.0 + 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
+    if let Some(area) = options.max_area.filter(|a| !(a.is_finite() && *a > 0.0)) {
+        return Err(PslgError::InvalidArea { area });
+    }
+    let mesher = Mesher::new(input, options);
+    let mut demands = Vec::new();
+    let mut best: Option<(usize, Net)> = None;
+    let mut attempt = 0;
+    loop {
+        let (net, pardoned) = mesher.attempt(&demands, monitor)?;
+        let bad = bad_triangles(&net, mesher.judge);
+        let (near, elsewhere): (Vec<u32>, Vec<u32>) =
+            bad.iter().partition(|&&t| sector_near(&net, t, &mesher.sectors, mesher.sites()).is_some());
+        let _ = pardoned;
+        // What fails beside a narrow sector counts less than any other.
+        let score = elsewhere.len() * 1_000_000 + near.len();
+        demands.extend(elsewhere.iter().map(|&t| demand_at(&net, t)));
+        if best.as_ref().is_none_or(|(least, _)| score < *least) {
+            best = Some((score, net));
+        }
+        if elsewhere.is_empty() || attempt == options.retries {
+            break;
+        }
+        attempt += 1;
+    }
+    let (_, net) = best.expect("the first attempt is the best of one at least");
+    check(monitor)?;
+    let parts = Parts { input, pieces: &mesher.pieces, sectors: &mesher.sectors, judge: mesher.judge };
+    output::finish(net, &parts, attempt, monitor)
+}
+
+/// A wish for smaller hexagons around a failed triangle.
+fn demand_at(net: &Net, t: u32) -> Demand {
+    let [a, b, c] = net.corners(t);
+    let lengths = [a.distance(b), b.distance(c), c.distance(a)];
+    let mean = lengths.iter().sum::<f64>() / 3.0;
+    Demand { centre: (a + b + c) / 3.0, radius: REFINED_RADIUS * mean, spacing: REFINEMENT * mean }
+}
+
+struct Mesher<'a> {
+    input: &'a Validated,
+    options: &'a Options,
+    lattice: Lattice,
+    /// Radius of the disc that the domain must hold.
+    reach: f64,
+    pieces: Vec<Piece>,
+    sectors: Vec<Sector>,
+    judge: Judge,
+}
+
+impl<'a> Mesher<'a> {
+    fn new(input: &'a Validated, options: &'a Options) -> Self {
+        let circle = smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
+        let pieces = input.pieces.clone();
+        let sectors = narrow_sectors(input.points.sites(), &pieces, options.near.min_deg());
+        let judge = Judge { near: options.near, far: options.far };
+        Self { input, options, lattice: lattice_for(circle), reach: circle.radius, pieces, sectors, judge }
+    }
+
+    fn sites(&self) -> &'a [hexdel_geom::DVec2] {
+        self.input.points.sites()
+    }
+
+    /// One mesh, from the grid on. Returns it with the number of triangles
+    /// that the optimiser gave up.
+    fn attempt(&self, demands: &[Demand], monitor: &dyn Monitor) -> Result<(Net, usize), PslgError> {
+        let features = Features {
+            sites: self.sites(),
+            pieces: &self.pieces,
+            input_of_site: self.input.points.input_of_site(),
+            demands,
+            limit: None,
+            max_triangles: self.options.max_triangles,
+        };
+        let mut refiner = refine(self.lattice, &features, monitor)?;
+        let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
+        let too_many =
+            || PslgError::TooMany { limit: self.options.max_triangles, at: self.lattice.origin() };
+        let dual = extract(refiner.grid_mut(), &[], domain, Relocation::Full, monitor).map_err(|e| match e {
+            DualError::Cancelled(c) => PslgError::Cancelled(c),
+            _ => too_many(),
+        })?;
+        if dual.mesh.triangles.len() > self.options.max_triangles {
+            return Err(too_many());
+        }
+        let mut embedding = embed(Net::of(&dual.mesh), self.sites(), &self.pieces, monitor)?;
+        carve(&mut embedding.net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
+        if embedding.net.alive().next().is_none() {
+            return Err(PslgError::NothingEnclosed);
+        }
+        let left = optimise(&mut embedding.net, self.judge, monitor)?;
+        Ok((embedding.net, left))
+    }
+}
