@@ -7,6 +7,15 @@ use hexdel_geom::{AngleBounds, DVec2, quality};
 /// certificate's tolerance.
 const TOLERANCE_DEG: f64 = hexdel_geom::ANGLE_TOLERANCE_DEG;
 
+/// Degrees that one of two right angles opposite an edge must lose. Otherwise
+/// the four corners are cocircular, and rounding decides whether the edge is
+/// Delaunay. The plain mesh has such edges too; its templates keep them in
+/// order.
+const STRICT_DEG: f64 = 0.01;
+
+/// Cosine of an angle that counts as a right one here: 90 - 1e-6 degrees.
+const NEARLY_RIGHT: f64 = 1.75e-8;
+
 /// Ring from which on triangles keep the bounds of the plain mesh.
 pub(crate) const FAR_RING: u32 = 2;
 
@@ -30,7 +39,15 @@ impl Judge {
         let is_near = tri.v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
         let bounds = if is_near { self.near } else { self.far };
         let [lo, hi] = [bounds.min_deg(), bounds.max_deg()];
-        [0, 1, 2].map(|i| if is_sector(net, t, i) { [0.0, hi] } else { [lo, hi] })
+        [0, 1, 2].map(|i| {
+            if is_sector(net, t, i) {
+                [0.0, hi]
+            } else if is_near && is_kite(net, t, i) {
+                [lo, hi.min(90.0 - STRICT_DEG)]
+            } else {
+                [lo, hi]
+            }
+        })
     }
 
     /// The squares of what angles are past their bounds by, degrees, summed;
@@ -52,6 +69,27 @@ pub(crate) fn is_sector(net: &Net, t: u32, i: usize) -> bool {
     tri.s[(i + 1) % 3] != NONE
         && tri.s[(i + 2) % 3] != NONE
         && matches!(net.vertex(tri.v[i]).kind, Kind::Site(_))
+}
+
+/// Whether the angles on both sides of the edge opposite corner `i` are right
+/// angles or more.
+fn is_kite(net: &Net, t: u32, i: usize) -> bool {
+    let is_wide = |t: u32, i: usize| {
+        let [a, b, c] = [0, 1, 2].map(|k| net.at(net.tri(t).v[(i + k) % 3]));
+        let (u, w) = (b - a, c - a);
+        u.dot(w) <= NEARLY_RIGHT * (u.length_squared() * w.length_squared()).sqrt()
+    };
+    is_wide(t, i) && net.beyond(t, i).is_some_and(|(n, j)| is_wide(n, j))
+}
+
+/// Triangles that a free vertex must have. Four angles of 90 degrees at most
+/// are four right angles, and rounding decides whether the edges around are
+/// Delaunay.
+pub(crate) const LEAST_DEGREE: usize = 5;
+
+/// Whether a vertex has too few triangles to have good angles.
+pub(crate) fn is_starved(net: &Net, v: u32) -> bool {
+    net.vertex(v).kind == Kind::Free && net.degree(v) < LEAST_DEGREE
 }
 
 /// The penalty of a triangle against limits.

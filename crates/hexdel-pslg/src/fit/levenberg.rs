@@ -59,27 +59,24 @@ pub(crate) struct Levenberg {
 
 impl Levenberg {
     /// Moves `movable` for the sake of `tris`, which are all around them and
-    /// maybe others. Returns the penalty that is left; the net is changed only
-    /// if that is less than before.
-    pub(crate) fn run(&mut self, net: &mut Net, judge: Judge, movable: &[u32], tris: &[u32], iterations: u32) -> f64 {
+    /// maybe others. The net is changed only if that lowers their penalty, with
+    /// the limits they have before.
+    pub(crate) fn run(&mut self, net: &mut Net, judge: Judge, movable: &[u32], tris: &[u32], iterations: u32) {
         self.set_up(net, judge, movable, tris);
         let before = self.penalty(&self.locals);
         if before == 0.0 || self.unknowns == 0 {
-            return before;
+            return;
         }
-        let start = self.locals.clone();
         self.descend(net, iterations);
         let after = self.penalty(&self.locals);
         if after >= before {
-            self.locals = start;
-            return before;
+            return;
         }
         for (local, &v) in self.locals.iter().zip(&self.names) {
             if local.unknown.is_some() {
                 net.move_to(v, local.at, local.kind);
             }
         }
-        after
     }
 
     fn set_up(&mut self, net: &Net, judge: Judge, movable: &[u32], tris: &[u32]) {

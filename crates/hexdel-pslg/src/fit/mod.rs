@@ -21,7 +21,7 @@ pub(crate) mod patch;
 use crate::net::{Kind, NONE, Net};
 use edits::{Edit, edits};
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
-use judge::Judge;
+use judge::{FAR_RING, Judge, is_starved};
 use levenberg::Levenberg;
 use patch::Patch;
 
@@ -76,6 +76,8 @@ pub(crate) fn bad_triangles(net: &Net, judge: Judge) -> Vec<u32> {
 /// [`Cancelled`], if the monitor asks for it.
 pub(crate) fn optimise(net: &mut Net, judge: Judge, monitor: &dyn Monitor) -> Result<usize, Cancelled> {
     let mut solver = Levenberg::default();
+    count_rings(net);
+    feed(net);
     for (reach, ring) in SWEEPS {
         count_rings(net);
         let bad = bad_triangles(net, judge);
@@ -100,6 +102,22 @@ pub(crate) fn optimise(net: &mut Net, judge: Judge, monitor: &dyn Monitor) -> Re
     }
     count_rings(net);
     Ok(bad_triangles(net, judge).len())
+}
+
+/// Takes out free vertices near segments that have too few triangles.
+fn feed(net: &mut Net) {
+    let mut stack: Vec<u32> = (0..net.vertex_count()).rev().filter(|&v| net.vertex(v).ring <= FAR_RING + 1).collect();
+    let mut star = Vec::new();
+    while let Some(v) = stack.pop() {
+        if net.vertex(v).kind != Kind::Free || !is_starved(net, v) {
+            continue;
+        }
+        net.star(v, &mut star);
+        let around: Vec<u32> = star.iter().flat_map(|&t| net.tri(t).v).filter(|&w| w != v).collect();
+        if net.remove(v) {
+            stack.extend(around);
+        }
+    }
 }
 
 fn watch(monitor: &dyn Monitor, done: usize, total: usize) -> Result<(), Cancelled> {
@@ -208,14 +226,15 @@ fn carry_out(
 ) -> Option<f64> {
     let patch = apply_all(net, patch, list)?;
     if !thoroughly {
-        return Some(solver.run(net, judge, &patch.movable, &patch.tris, 4));
+        solver.run(net, judge, &patch.movable, &patch.tris, 4);
+        return Some(judge.sum(net, &patch.tris));
     }
-    let left = solver.run(net, judge, &patch.movable, &patch.tris, 12);
-    if left == 0.0 {
-        return Some(left);
+    solver.run(net, judge, &patch.movable, &patch.tris, 12);
+    if judge.sum(net, &patch.tris) > 0.0 {
+        patch.flip(net, judge);
+        solver.run(net, judge, &patch.movable, &patch.tris, 14);
     }
-    patch.flip(net, judge);
-    Some(solver.run(net, judge, &patch.movable, &patch.tris, 14))
+    Some(judge.sum(net, &patch.tris))
 }
 
 /// Makes edits one after the other; `None` if one is not possible.
@@ -225,5 +244,7 @@ fn apply_all(net: &mut Net, patch: &Patch, list: &[Edit]) -> Option<Patch> {
     if !list.iter().all(|edit| edit.apply(net)) {
         return None;
     }
-    Some(patch.after(net, &net.touched(mark), first_new))
+    let patch = patch.after(net, &net.touched(mark), first_new);
+    let starved = patch.tris.iter().flat_map(|&t| net.tri(t).v).any(|v| is_starved(net, v));
+    (!starved).then_some(patch)
 }

@@ -1,6 +1,6 @@
 //! A bad triangle and its surroundings, as far as they may change.
 
-use super::judge::Judge;
+use super::judge::{Judge, LEAST_DEGREE};
 use super::levenberg::Levenberg;
 use crate::net::{Kind, Net};
 
@@ -80,6 +80,10 @@ impl Patch {
         if before == 0.0 {
             return false;
         }
+        let starves = |v: u32| net.vertex(v).kind == Kind::Free && net.degree(v) <= LEAST_DEGREE;
+        if net.tri(t).edge(i).into_iter().any(starves) {
+            return false;
+        }
         let mark = net.mark();
         // The numbers of both triangles are used again.
         if net.flip(t, i) {
@@ -96,7 +100,8 @@ impl Patch {
         let mut left = f64::INFINITY;
         for _ in 0..2 {
             self.flip(net, judge);
-            left = solver.run(net, judge, &self.movable, &self.tris, 25);
+            solver.run(net, judge, &self.movable, &self.tris, 25);
+            left = judge.sum(net, &self.tris);
             if left == 0.0 {
                 break;
             }

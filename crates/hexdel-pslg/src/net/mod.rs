@@ -201,6 +201,13 @@ impl Net {
         orient2d(self.at(a), self.at(b), self.at(c))
     }
 
+    /// How many triangles a vertex has.
+    pub(crate) fn degree(&self, v: u32) -> usize {
+        let mut star = Vec::with_capacity(8);
+        self.star(v, &mut star);
+        star.len()
+    }
+
     /// The triangles at a vertex; counter-clockwise, from the rim if it is on it.
     pub(crate) fn star(&self, v: u32, out: &mut Vec<u32>) {
         self.fan(v, self.vertex(v).tri, out);
