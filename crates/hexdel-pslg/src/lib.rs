@@ -9,6 +9,9 @@ mod mesher;
 mod net;
 mod options;
 mod output;
+mod pairs;
+
+mod repair;
 mod result;
 mod sectors;
 mod sizing;
@@ -16,5 +19,6 @@ mod validate;
 pub use error::{Feature, PslgError, ValidateError};
 pub use mesher::mesh;
 pub use options::{Extent, Options};
+pub use repair::{Repair, RepairReport, repair};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
 pub use validate::{Divided, Validated, validate, violations};

@@ -1,0 +1,118 @@
+//! Which points and segments are near each other: a quadtree of their lists.
+//!
+//! A square that holds much is divided in four, and each quarter gets what of
+//! the square's lists reaches it. What shares a small square in the end is
+//! looked at pair by pair. Near-linear unless many long segments run side by
+//! side closer than the last squares are wide.
+
+use crate::geometry::distance_sq;
+use crate::validate::bounding_box;
+use hexdel_geom::{DVec2, orient2d};
+
+/// Pairs that are worth looking at one by one.
+const FEW: usize = 32;
+
+/// Divisions at most: many segments at one point stay together forever.
+const DEPTH: u32 = 20;
+
+/// What touches what.
+#[derive(Debug, Default)]
+pub(crate) struct Contacts {
+    /// Segments and points on them that are not their ends.
+    pub(crate) touching: Vec<(u32, u32)>,
+    /// Segments that cross between their ends, the smaller number first.
+    pub(crate) crossing: Vec<(u32, u32)>,
+}
+
+/// Finds all contacts. A point within `tolerance` of a segment is on it; of
+/// points within the tolerance of an end none is.
+pub(crate) fn contacts(points: &[DVec2], segments: &[[u32; 2]], tolerance: f64) -> Contacts {
+    let (min, max) = bounding_box(points);
+    let half = 0.5 * (max - min).max_element();
+    let mut finder = Finder { points, segments, tolerance, found: Contacts::default() };
+    let all = (0..segments.len() as u32).collect();
+    // Room for points on the sides.
+    finder.divide(min.midpoint(max), half * 1.001 + tolerance, all, (0..points.len() as u32).collect(), 0);
+    let mut found = finder.found;
+    for list in [&mut found.touching, &mut found.crossing] {
+        list.sort_unstable();
+        list.dedup();
+    }
+    found
+}
+
+struct Finder<'a> {
+    points: &'a [DVec2],
+    segments: &'a [[u32; 2]],
+    tolerance: f64,
+    found: Contacts,
+}
+
+impl Finder<'_> {
+    fn ends(&self, s: u32) -> [DVec2; 2] {
+        self.segments[s as usize].map(|p| self.points[p as usize])
+    }
+
+    fn divide(&mut self, centre: DVec2, half: f64, segments: Vec<u32>, points: Vec<u32>, depth: u32) {
+        if segments.len() * (segments.len() + points.len()) <= FEW || depth == DEPTH {
+            self.look(&segments, &points);
+            return;
+        }
+        for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
+            let quarter = centre + DVec2::new(x, y) * (0.5 * half);
+            // Half as much again would do no harm; a thousandth and the
+            // tolerance cover rounding and what lies just outside.
+            let reach = 0.5 * half * 1.001 + self.tolerance;
+            let segments: Vec<u32> =
+                segments.iter().copied().filter(|&s| meets(self.ends(s), quarter, reach)).collect();
+            if segments.is_empty() {
+                continue;
+            }
+            let inside = |p: &u32| (self.points[*p as usize] - quarter).abs().max_element() <= reach;
+            let points = points.iter().copied().filter(inside).collect();
+            self.divide(quarter, 0.5 * half, segments, points, depth + 1);
+        }
+    }
+
+    fn look(&mut self, segments: &[u32], points: &[u32]) {
+        for (i, &s) in segments.iter().enumerate() {
+            for &p in points {
+                if self.is_on(p, s) {
+                    self.found.touching.push((s, p));
+                }
+            }
+            for &r in &segments[..i] {
+                if self.cross(r, s) {
+                    self.found.crossing.push((r.min(s), r.max(s)));
+                }
+            }
+        }
+    }
+
+    fn is_on(&self, p: u32, s: u32) -> bool {
+        if self.segments[s as usize].contains(&p) {
+            return false;
+        }
+        let [a, b] = self.ends(s);
+        let p = self.points[p as usize];
+        let between = (p - a).dot(b - a) > 0.0 && (p - b).dot(a - b) > 0.0;
+        between && (distance_sq(p, a, b) <= self.tolerance * self.tolerance || orient2d(a, b, p) == 0.0)
+    }
+
+    fn cross(&self, r: u32, s: u32) -> bool {
+        let [a, b] = self.ends(r);
+        let [c, d] = self.ends(s);
+        let apart = |x: f64, y: f64| (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0);
+        apart(orient2d(a, b, c), orient2d(a, b, d)) && apart(orient2d(c, d, a), orient2d(c, d, b))
+    }
+}
+
+/// Whether a segment meets a square, by separating axes.
+fn meets([a, b]: [DVec2; 2], centre: DVec2, half: f64) -> bool {
+    let (a, b) = (a - centre, b - centre);
+    if a.min(b).max_element() > half || (-a.max(b)).max_element() > half {
+        return false;
+    }
+    let u = b - a;
+    u.perp_dot(a).abs() <= half * (u.x.abs() + u.y.abs()) * (1.0 + 1e-12)
+}
