@@ -3,13 +3,13 @@
 use crate::carve::carve;
 use crate::embed::embed;
 use crate::error::PslgError;
-use crate::fit::judge::Judge;
+use crate::fit::judge::{Judge, Wedges};
 use crate::fit::{bad_triangles, optimise};
 use crate::net::Net;
 use crate::options::{Extent, Options};
 use crate::output::{self, Parts};
 use crate::result::PslgMesh;
-use crate::sectors::{Sector, narrow_sectors, sector_near};
+use crate::sectors::{Sector, narrow_sectors, sector_near, wedges};
 use crate::sizing::{Demand, Features, lattice_for, refine};
 use crate::validate::{Piece, Validated};
 use hexdel_classify::{Domain, DualError, Relocation, extract};
@@ -68,11 +68,10 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     let mut best: Option<(usize, Net)> = None;
     let mut attempt = 0;
     loop {
-        let (net, pardoned) = mesher.attempt(&demands, monitor)?;
-        let bad = bad_triangles(&net, mesher.judge);
+        let net = mesher.attempt(&demands, monitor)?;
+        let bad = bad_triangles(&net, mesher.judge());
         let (near, elsewhere): (Vec<u32>, Vec<u32>) =
             bad.iter().partition(|&&t| sector_near(&net, t, &mesher.sectors, mesher.sites()).is_some());
-        let _ = pardoned;
         // What fails beside a narrow sector counts less than any other.
         let score = elsewhere.len() * 1_000_000 + near.len();
         demands.extend(elsewhere.iter().map(|&t| demand_at(&net, t)));
@@ -86,7 +85,7 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     }
     let (_, net) = best.expect("the first attempt is the best of one at least");
     check(monitor)?;
-    let parts = Parts { input, pieces: &mesher.pieces, sectors: &mesher.sectors, judge: mesher.judge };
+    let parts = Parts { input, pieces: &mesher.pieces, sectors: &mesher.sectors, judge: mesher.judge() };
     output::finish(net, &parts, attempt, monitor)
 }
 
@@ -106,7 +105,7 @@ struct Mesher<'a> {
     reach: f64,
     pieces: Vec<Piece>,
     sectors: Vec<Sector>,
-    judge: Judge,
+    wedges: Wedges,
 }
 
 impl<'a> Mesher<'a> {
@@ -114,17 +113,20 @@ impl<'a> Mesher<'a> {
         let circle = smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
         let pieces = input.pieces.clone();
         let sectors = narrow_sectors(input.points.sites(), &pieces, options.near.min_deg());
-        let judge = Judge { near: options.near, far: options.far };
-        Self { input, options, lattice: lattice_for(circle), reach: circle.radius, pieces, sectors, judge }
+        let wedges = wedges(&sectors, &pieces);
+        Self { input, options, lattice: lattice_for(circle), reach: circle.radius, pieces, sectors, wedges }
+    }
+
+    fn judge(&self) -> Judge<'_> {
+        Judge { near: self.options.near, far: self.options.far, wedges: &self.wedges }
     }
 
     fn sites(&self) -> &'a [hexdel_geom::DVec2] {
         self.input.points.sites()
     }
 
-    /// One mesh, from the grid on. Returns it with the number of triangles
-    /// that the optimiser gave up.
-    fn attempt(&self, demands: &[Demand], monitor: &dyn Monitor) -> Result<(Net, usize), PslgError> {
+    /// One mesh, from the grid on.
+    fn attempt(&self, demands: &[Demand], monitor: &dyn Monitor) -> Result<Net, PslgError> {
         let features = Features {
             sites: self.sites(),
             pieces: &self.pieces,
@@ -149,7 +151,8 @@ impl<'a> Mesher<'a> {
         if embedding.net.alive().next().is_none() {
             return Err(PslgError::NothingEnclosed);
         }
-        let left = optimise(&mut embedding.net, self.judge, monitor)?;
-        Ok((embedding.net, left))
+        let excused = |net: &Net, t: u32| sector_near(net, t, &self.sectors, self.sites()).is_some();
+        optimise(&mut embedding.net, self.judge(), &excused, monitor)?;
+        Ok(embedding.net)
     }
 }

@@ -4,7 +4,7 @@ use crate::carve::flood;
 use crate::error::PslgError;
 use crate::fit::edits::parameter;
 use crate::fit::judge::{Judge, is_sector};
-use crate::fit::{bad_triangles, count_rings};
+use crate::fit::count_rings;
 use crate::net::insert::Place;
 use crate::net::{Kind, NONE, Net};
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
@@ -20,7 +20,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) input: &'a Validated,
     pub(crate) pieces: &'a [Piece],
     pub(crate) sectors: &'a [Sector],
-    pub(crate) judge: Judge,
+    pub(crate) judge: Judge<'a>,
 }
 
 /// Makes the result.
@@ -234,7 +234,8 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         Exception { triangle, at, angles_deg: [min, max], reason }
     };
     let point = |site: u32| parts.input.points.input_of_site()[site as usize];
-    let failed = bad_triangles(net, parts.judge).into_iter().map(|t| {
+    let failed = net.alive().filter(|&t| parts.judge.penalty(net, t) > 0.0 || parts.judge.is_waived(net, t));
+    let failed = failed.map(|t| {
         let near = sector_near(net, t, parts.sectors, parts.input.points.sites());
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
             point: point(sector.site),
@@ -255,7 +256,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     };
     let exempt = net
         .alive()
-        .filter(|&t| parts.judge.penalty(net, t) == 0.0)
+        .filter(|&t| parts.judge.penalty(net, t) == 0.0 && !parts.judge.is_waived(net, t))
         .filter_map(|t| sector(t).map(|reason| entry(t, reason)))
         .collect();
     (exempt, failed)

@@ -1,5 +1,6 @@
 //! Corners of the input that are narrower than the bound.
 
+use crate::fit::judge::Wedges;
 use crate::net::Net;
 use crate::validate::Piece;
 use hexdel_geom::{DVec2, quality};
@@ -9,19 +10,36 @@ use std::f64::consts::TAU;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sector {
     pub(crate) site: u32,
+    /// The pieces on both sides.
+    pub(crate) pieces: [u32; 2],
     /// Less than the bound.
     pub(crate) angle_deg: f64,
 }
 
+/// Sectors below this many degrees are given up. On the outer side of a
+/// segment, three triangles of 60 degrees around a vertex, each with sides as
+/// 1 to 2, bring edges as 1 to 8 together: with the sector's first edge as long
+/// as its distance from the corner and the next as long as the sector is wide
+/// there, that is an angle of 1/8 radian. Below, no mesh keeps 30 degrees.
+const HOPELESS_DEG: f64 = 7.0;
+
+/// The sectors that are given up.
+pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
+    let pairs: Vec<[u32; 2]> =
+        sectors.iter().filter(|s| s.angle_deg < HOPELESS_DEG).map(|s| s.pieces).collect();
+    Wedges::of(&pairs, pieces.iter().map(|p| p.ends).collect())
+}
+
 /// All sectors narrower than `least_deg`.
 pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], least_deg: f64) -> Vec<Sector> {
-    let mut rays: Vec<(u32, f64)> = pieces
+    let mut rays: Vec<(u32, f64, u32)> = pieces
         .iter()
-        .flat_map(|piece| {
+        .zip(0..)
+        .flat_map(|(piece, i)| {
             let [a, b] = piece.ends;
             let direction = |from: u32, to: u32| {
                 let u = sites[to as usize] - sites[from as usize];
-                (from, libm_atan2(u))
+                (from, libm_atan2(u), i)
             };
             [direction(a, b), direction(b, a)]
         })
@@ -33,10 +51,10 @@ pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], least_deg: f64) 
             continue;
         }
         for (i, ray) in group.iter().enumerate() {
-            let next = group[(i + 1) % group.len()].1;
-            let angle_deg = (next - ray.1).rem_euclid(TAU).to_degrees();
+            let next = group[(i + 1) % group.len()];
+            let angle_deg = (next.1 - ray.1).rem_euclid(TAU).to_degrees();
             if angle_deg < least_deg {
-                sectors.push(Sector { site: ray.0, angle_deg });
+                sectors.push(Sector { site: ray.0, pieces: [ray.2, next.2], angle_deg });
             }
         }
     }

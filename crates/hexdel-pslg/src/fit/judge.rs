@@ -2,6 +2,7 @@
 
 use crate::net::{Kind, NONE, Net};
 use hexdel_geom::{AngleBounds, DVec2, quality};
+use rustc_hash::FxHashMap;
 
 /// An angle past its bound by this many degrees is still within: the
 /// certificate's tolerance.
@@ -21,20 +22,36 @@ pub(crate) const FAR_RING: u32 = 2;
 
 /// The bounds of a mesh with segments in it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Judge {
+pub(crate) struct Judge<'a> {
     /// Triangles with a vertex less than [`FAR_RING`] edges from a point or
     /// segment.
     pub(crate) near: AngleBounds,
     /// All others.
     pub(crate) far: AngleBounds,
+    /// Corners of the input in which nothing can be asked for.
+    pub(crate) wedges: &'a Wedges,
 }
 
 /// The smallest and largest angle allowed at a corner, degrees.
 pub(crate) type Limits = [f64; 2];
 
-impl Judge {
+impl Judge<'_> {
     /// The bounds at the three corners.
     pub(crate) fn limits(&self, net: &Net, t: u32) -> [Limits; 3] {
+        let tri = net.tri(t);
+        if self.wedges.hold(net, tri.v) {
+            return [WEDGE_LIMITS; 3];
+        }
+        self.ordinary_limits(net, t)
+    }
+
+    /// Whether the triangle lies in a wedge and has angles that would be out
+    /// of bounds elsewhere.
+    pub(crate) fn is_waived(&self, net: &Net, t: u32) -> bool {
+        self.wedges.hold(net, net.tri(t).v) && penalty(net.corners(t), self.ordinary_limits(net, t)) > 0.0
+    }
+
+    fn ordinary_limits(&self, net: &Net, t: u32) -> [Limits; 3] {
         let tri = net.tri(t);
         let is_near = tri.v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
         let bounds = if is_near { self.near } else { self.far };
@@ -59,6 +76,51 @@ impl Judge {
     /// The sum over triangles.
     pub(crate) fn sum(&self, net: &Net, tris: &[u32]) -> f64 {
         tris.iter().map(|&t| self.penalty(net, t)).sum()
+    }
+}
+
+/// Limits of triangles that span a wedge: counter-clockwise, and not so flat as
+/// to keep what is around from being any good.
+const WEDGE_LIMITS: Limits = [0.0, 120.0];
+
+/// Pairs of pieces that leave a site at so small an angle that triangles
+/// between them cannot keep any bounds. Least squares would spread their fault
+/// over all that is around.
+#[derive(Debug, Default)]
+pub(crate) struct Wedges {
+    /// By piece: the other piece of each wedge.
+    others: FxHashMap<u32, Vec<u32>>,
+    /// The sites at the ends of each piece.
+    ends: Vec<[u32; 2]>,
+}
+
+impl Wedges {
+    pub(crate) fn of(pairs: &[[u32; 2]], ends: Vec<[u32; 2]>) -> Self {
+        let mut others: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for &[p, q] in pairs {
+            others.entry(p).or_default().push(q);
+            others.entry(q).or_default().push(p);
+        }
+        Self { others, ends }
+    }
+
+    /// Whether all corners of a triangle lie on the two pieces of a wedge.
+    fn hold(&self, net: &Net, v: [u32; 3]) -> bool {
+        if self.others.is_empty() {
+            return false;
+        }
+        let kinds = v.map(|v| net.vertex(v).kind);
+        let on = |kind: Kind, p: u32| match kind {
+            Kind::Along { piece, .. } => piece == p,
+            Kind::Site(site) => self.ends[p as usize].contains(&site),
+            _ => false,
+        };
+        kinds.iter().any(|kind| match kind {
+            Kind::Along { piece, .. } => self.others.get(piece).is_some_and(|others| {
+                others.iter().any(|&q| kinds.iter().all(|&k| on(k, *piece) || on(k, q)))
+            }),
+            _ => false,
+        })
     }
 }
 

@@ -61,7 +61,7 @@ impl Levenberg {
     /// Moves `movable` for the sake of `tris`, which are all around them and
     /// maybe others. The net is changed only if that lowers their penalty, with
     /// the limits they have before.
-    pub(crate) fn run(&mut self, net: &mut Net, judge: Judge, movable: &[u32], tris: &[u32], iterations: u32) {
+    pub(crate) fn run(&mut self, net: &mut Net, judge: Judge<'_>, movable: &[u32], tris: &[u32], iterations: u32) {
         self.set_up(net, judge, movable, tris);
         let before = self.penalty(&self.locals);
         if before == 0.0 || self.unknowns == 0 {
@@ -79,7 +79,7 @@ impl Levenberg {
         }
     }
 
-    fn set_up(&mut self, net: &Net, judge: Judge, movable: &[u32], tris: &[u32]) {
+    fn set_up(&mut self, net: &Net, judge: Judge<'_>, movable: &[u32], tris: &[u32]) {
         const ABSENT: u32 = u32::MAX;
         self.slots.resize(net.vertex_count() as usize, ABSENT);
         self.locals.clear();
@@ -241,8 +241,8 @@ impl Levenberg {
 /// What an angle is past its bound by, with slack, and in which direction.
 fn residual(angle: f64, [lo, hi]: Limits) -> Option<(f64, f64)> {
     let (below, above) = (lo + SLACK_DEG - angle, angle - hi + SLACK_DEG);
-    // A corner between two segments has the angle it has.
-    if below > 0.0 && lo > 0.0 {
+    // A corner between two segments has the angle it has, unless turned over.
+    if below > 0.0 && (lo > 0.0 || angle < 0.0) {
         Some((below, -1.0))
     } else if above > 0.0 {
         Some((above, 1.0))

@@ -39,6 +39,13 @@ const CANDIDATES: usize = 12;
 /// Edits from which a second one is tried.
 const BRANCHES: usize = 4;
 
+/// Searches of depth one that an optimisation may take, if it has not more bad
+/// triangles than that; each takes some ten milliseconds.
+const SEARCH_BUDGET: u32 = 200;
+
+/// What a search of depth two costs in those of depth one.
+const DEEP_COST: u32 = 1 + BRANCHES as u32;
+
 /// Counts each vertex's edges to the nearest point or segment.
 pub(crate) fn count_rings(net: &mut Net) {
     for v in 0..net.vertex_count() {
@@ -64,17 +71,23 @@ pub(crate) fn count_rings(net: &mut Net) {
 }
 
 /// Triangles with an angle out of bounds.
-pub(crate) fn bad_triangles(net: &Net, judge: Judge) -> Vec<u32> {
+pub(crate) fn bad_triangles(net: &Net, judge: Judge<'_>) -> Vec<u32> {
     net.alive().filter(|&t| judge.penalty(net, t) > 0.0).collect()
 }
 
 /// Optimises until all triangles keep their bounds or the sweeps are used up.
-/// Returns how many do not.
+/// Triangles that are `excused`, because their surroundings have no room, get a
+/// part of the effort only.
 ///
 /// # Errors
 ///
 /// [`Cancelled`], if the monitor asks for it.
-pub(crate) fn optimise(net: &mut Net, judge: Judge, monitor: &dyn Monitor) -> Result<usize, Cancelled> {
+pub(crate) fn optimise(
+    net: &mut Net,
+    judge: Judge<'_>,
+    excused: &dyn Fn(&Net, u32) -> bool,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
     let mut solver = Levenberg::default();
     count_rings(net);
     feed(net);
@@ -86,22 +99,26 @@ pub(crate) fn optimise(net: &mut Net, judge: Judge, monitor: &dyn Monitor) -> Re
             mend(net, judge, t, reach, ring, &mut solver);
         }
     }
-    for (ring, depth) in SEARCHES {
+    count_rings(net);
+    let mut budget = SEARCH_BUDGET.max(2 * bad_triangles(net, judge).len() as u32);
+    for (sweep, (ring, depth)) in SEARCHES.into_iter().enumerate() {
         count_rings(net);
         let bad = bad_triangles(net, judge);
-        if bad.is_empty() {
-            break;
-        }
         for (i, &t) in bad.iter().enumerate() {
             watch(monitor, i, bad.len())?;
-            if net.tri(t).alive() && judge.penalty(net, t) > 0.0 {
+            if !net.tri(t).alive() || judge.penalty(net, t) == 0.0 || (sweep > 0 && excused(net, t)) {
+                continue;
+            }
+            let cost = if depth > 1 { DEEP_COST } else { 1 };
+            if budget >= cost {
+                budget -= cost;
                 search(net, judge, t, ring, depth, &mut solver);
                 net.commit();
             }
         }
     }
     count_rings(net);
-    Ok(bad_triangles(net, judge).len())
+    Ok(())
 }
 
 /// Takes out free vertices near segments that have too few triangles.
@@ -129,7 +146,7 @@ fn watch(monitor: &dyn Monitor, done: usize, total: usize) -> Result<(), Cancell
 }
 
 /// Moves and flips around a bad triangle, if that makes things better.
-fn mend(net: &mut Net, judge: Judge, t: u32, reach: u32, ring: u32, solver: &mut Levenberg) {
+fn mend(net: &mut Net, judge: Judge<'_>, t: u32, reach: u32, ring: u32, solver: &mut Levenberg) {
     if !net.tri(t).alive() || judge.penalty(net, t) == 0.0 {
         return;
     }
@@ -143,7 +160,7 @@ fn mend(net: &mut Net, judge: Judge, t: u32, reach: u32, ring: u32, solver: &mut
 }
 
 /// Tries edits around a bad triangle and keeps the best, if it is any good.
-fn search(net: &mut Net, judge: Judge, t: u32, ring: u32, depth: u32, solver: &mut Levenberg) {
+fn search(net: &mut Net, judge: Judge<'_>, t: u32, ring: u32, depth: u32, solver: &mut Levenberg) {
     let patch = Patch::around(net, t, 2, ring);
     let before = judge.sum(net, &patch.tris);
     let mut best: (f64, Vec<Edit>) = (before, Vec::new());
@@ -172,7 +189,7 @@ fn search(net: &mut Net, judge: Judge, t: u32, ring: u32, depth: u32, solver: &m
 /// perfect.
 fn consider(
     net: &mut Net,
-    judge: Judge,
+    judge: Judge<'_>,
     patch: &Patch,
     list: Vec<Edit>,
     best: &mut (f64, Vec<Edit>),
@@ -190,7 +207,7 @@ fn consider(
 
 /// All edits around a triangle that can follow some others, the most promising
 /// first.
-fn ranked(net: &mut Net, judge: Judge, t: u32, patch: &Patch, done: &[Edit], solver: &mut Levenberg) -> Vec<Edit> {
+fn ranked(net: &mut Net, judge: Judge<'_>, t: u32, patch: &Patch, done: &[Edit], solver: &mut Levenberg) -> Vec<Edit> {
     let mark = net.mark();
     let Some(grown) = apply_all(net, patch, done) else {
         net.rollback(mark);
@@ -218,7 +235,7 @@ fn ranked(net: &mut Net, judge: Judge, t: u32, patch: &Patch, done: &[Edit], sol
 /// of what the patch has become.
 fn carry_out(
     net: &mut Net,
-    judge: Judge,
+    judge: Judge<'_>,
     patch: &Patch,
     list: &[Edit],
     thoroughly: bool,

@@ -56,7 +56,7 @@ impl Patch {
     }
 
     /// Flips edges inside of the patch as long as that makes it better.
-    pub(crate) fn flip(&self, net: &mut Net, judge: Judge) {
+    pub(crate) fn flip(&self, net: &mut Net, judge: Judge<'_>) {
         // Each pass lowers the penalty; a few find what there is to find.
         for _ in 0..4 {
             let mut any = false;
@@ -71,7 +71,7 @@ impl Patch {
         }
     }
 
-    fn try_flip(&self, net: &mut Net, judge: Judge, t: u32, i: usize) -> bool {
+    fn try_flip(&self, net: &mut Net, judge: Judge<'_>, t: u32, i: usize) -> bool {
         let n = net.tri(t).n[i];
         if self.tris.binary_search(&n).is_err() {
             return false;
@@ -96,7 +96,7 @@ impl Patch {
     }
 
     /// Flips and moves, once or twice. Returns the penalty of the patch.
-    pub(crate) fn improve(&self, net: &mut Net, judge: Judge, solver: &mut Levenberg) -> f64 {
+    pub(crate) fn improve(&self, net: &mut Net, judge: Judge<'_>, solver: &mut Levenberg) -> f64 {
         let mut left = f64::INFINITY;
         for _ in 0..2 {
             self.flip(net, judge);

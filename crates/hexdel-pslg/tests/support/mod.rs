@@ -205,3 +205,66 @@ fn letter_r() -> Pslg {
     append(&mut pslg, &chain(&scaled(&inner), true));
     pslg
 }
+
+/// A small random graph: sometimes on a coarse grid, so that points coincide
+/// and segments overlap, touch and cross.
+pub fn random_graph(seed: u64) -> Pslg {
+    let mut random = Random::new(seed ^ 0xabcd_ef01);
+    let n = 2 + random.below(9);
+    let grid = random.below(3) == 0;
+    let thin = if random.below(4) == 0 { 1e-3 } else { 1.0 };
+    let mut pslg = Pslg::default();
+    for _ in 0..n {
+        let p = if grid {
+            DVec2::new(random.below(5) as f64, random.below(5) as f64)
+        } else {
+            random.point(1.0) * DVec2::new(1.0, thin)
+        };
+        pslg.points.push(p);
+    }
+    for _ in 0..random.below(n + 3) {
+        pslg.segments.push([random.below(n) as u32, random.below(n) as u32]);
+    }
+    if random.below(4) == 0 {
+        pslg.holes.push(random.point(1.0));
+    }
+    pslg
+}
+
+/// Whether a mesh is valid and has all points and segments of a graph in it,
+/// if nothing was carved away.
+pub fn check(pslg: &Pslg, made: &hexdel_pslg::PslgMesh) -> Result<(), String> {
+    let c = &made.certificate;
+    let faults = [
+        (c.not_counter_clockwise, "triangles are not counter-clockwise"),
+        (c.malformed + c.not_finite, "triangles are malformed"),
+        (c.repeated_edges, "edges occur twice"),
+        (c.unused_vertices, "vertices are unused"),
+        (c.inputs - c.inputs_kept, "points are missing"),
+    ];
+    if let Some((n, what)) = faults.iter().find(|f| f.0 > 0) {
+        return Err(format!("{n} {what}"));
+    }
+    for (i, &[a, b]) in pslg.segments.iter().enumerate() {
+        let [from, to] = [a, b].map(|p| made.vertex_of_point[p as usize]);
+        let (Some(from), Some(to)) = (from, to) else { return Err(format!("segment {i} has no end")) };
+        let mut at = from;
+        let [p, q] = [a, b].map(|p| pslg.points[p as usize]);
+        for edge in made.edges.iter().filter(|e| e.segment == Some(i as u32)) {
+            if edge.ends[0] != at {
+                return Err(format!("segment {i} has a gap"));
+            }
+            at = edge.ends[1];
+            let v = made.mesh.vertices[at.index()];
+            let off = (q - p).perp_dot(v - p).abs() / p.distance(q);
+            let last_place = v.abs().max_element().max(p.abs().max_element()) * f64::EPSILON;
+            if off > 4.0 * last_place {
+                return Err(format!("segment {i} is left by {off}"));
+            }
+        }
+        if at != to {
+            return Err(format!("segment {i} does not end"));
+        }
+    }
+    Ok(())
+}
