@@ -1,6 +1,7 @@
 //! Corners of the input that are narrower than the bound.
 
 use crate::fit::judge::Wedges;
+use crate::geometry::distance_sq;
 use crate::net::Net;
 use crate::validate::Piece;
 use hexdel_geom::{DVec2, quality};
@@ -14,6 +15,8 @@ pub(crate) struct Sector {
     pub(crate) pieces: [u32; 2],
     /// Less than the bound.
     pub(crate) angle_deg: f64,
+    /// The bisector, as long as the longer side.
+    bisector: DVec2,
 }
 
 /// Sectors below this many degrees are given up. On the outer side of a
@@ -54,11 +57,25 @@ pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], least_deg: f64) 
             let next = group[(i + 1) % group.len()];
             let angle_deg = (next.1 - ray.1).rem_euclid(TAU).to_degrees();
             if angle_deg < least_deg {
-                sectors.push(Sector { site: ray.0, pieces: [ray.2, next.2], angle_deg });
+                sectors.push(Sector {
+                    site: ray.0,
+                    pieces: [ray.2, next.2],
+                    angle_deg,
+                    bisector: bisector(sites, pieces, ray.0, [ray.2, next.2]),
+                });
             }
         }
     }
     sectors
+}
+
+fn bisector(sites: &[DVec2], pieces: &[Piece], site: u32, sides: [u32; 2]) -> DVec2 {
+    let sides = sides.map(|p| {
+        let [a, b] = pieces[p as usize].ends;
+        sites[(if a == site { b } else { a }) as usize] - sites[site as usize]
+    });
+    let direction = sides[0].normalize_or_zero() + sides[1].normalize_or_zero();
+    direction.normalize_or_zero() * sides[0].length().max(sides[1].length())
 }
 
 /// The direction of a vector, by the portable arc tangent of the angles.
@@ -66,19 +83,28 @@ fn libm_atan2(u: DVec2) -> f64 {
     quality::angles_rad([DVec2::ZERO, DVec2::X * u.length(), u])[0]
 }
 
-/// The sector that may be blamed for a triangle's angles, and how far away it
-/// is.
+/// Edges around a narrow sector on which its fault may spread: those that meet
+/// it and two more rings, in which sizes find back to the mesh's own.
+const SPREAD: f64 = 3.0;
+
+/// The sector that may be blamed for a triangle's angles, and how far away its
+/// corner is.
 ///
 /// At a distance `r` from the corner the sector is `r sin(angle)` wide; where
-/// that is less than an edge nothing between its sides can have good angles.
-/// A few edges beyond that the mesh has found back to its own size.
+/// that is less than an edge nothing between its sides has good angles.
 pub(crate) fn sector_near(net: &Net, t: u32, sectors: &[Sector], sites: &[DVec2]) -> Option<(Sector, f64)> {
     let [a, b, c] = net.corners(t);
     let centre = (a + b + c) / 3.0;
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    let blamed = |s: &Sector| {
+        let corner = sites[s.site as usize];
+        let narrow = longest / s.angle_deg.to_radians().sin();
+        let end = corner + s.bisector * (narrow / s.bisector.length()).min(1.0);
+        distance_sq(centre, corner, end) <= (SPREAD * longest).powi(2)
+    };
     sectors
         .iter()
+        .filter(|s| blamed(s))
         .map(|s| (*s, sites[s.site as usize].distance(centre)))
-        .filter(|(s, distance)| *distance <= longest * (3.0 + 1.0 / s.angle_deg.to_radians().sin()))
         .min_by(|x, y| x.1.total_cmp(&y.1))
 }

@@ -81,7 +81,7 @@ impl Judge<'_> {
 
 /// Limits of triangles that span a wedge: counter-clockwise, and not so flat as
 /// to keep what is around from being any good.
-const WEDGE_LIMITS: Limits = [0.0, 120.0];
+const WEDGE_LIMITS: Limits = [0.0, 100.0];
 
 /// Pairs of pieces that leave a site at so small an angle that triangles
 /// between them cannot keep any bounds. Least squares would spread their fault

@@ -212,7 +212,7 @@ pub fn random_graph(seed: u64) -> Pslg {
     let mut random = Random::new(seed ^ 0xabcd_ef01);
     let n = 2 + random.below(9);
     let grid = random.below(3) == 0;
-    let thin = if random.below(4) == 0 { 1e-3 } else { 1.0 };
+    let thin = [1.0, 1.0, 0.3, 0.03][random.below(4) as usize];
     let mut pslg = Pslg::default();
     for _ in 0..n {
         let p = if grid {
