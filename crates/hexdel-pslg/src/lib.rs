@@ -1,10 +1,12 @@
 //! Triangle meshes of planar straight-line graphs.
+mod areas;
 mod carve;
 mod embed;
 mod error;
 mod field;
 mod fit;
 mod geometry;
+mod hull;
 mod mesher;
 mod net;
 mod options;

@@ -1,10 +1,12 @@
 //! From a valid graph to its mesh: the order of things.
 
+use crate::areas::AreaLimits;
 use crate::carve::carve;
 use crate::embed::embed;
 use crate::error::PslgError;
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::{bad_triangles, optimise};
+use crate::hull::with_hull;
 use crate::net::Net;
 use crate::options::{Extent, Options};
 use crate::output::{self, Parts};
@@ -14,7 +16,7 @@ use crate::sizing::{Demand, Features, lattice_for, refine};
 use crate::validate::{Piece, Validated};
 use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
-use hexdel_geom::{Monitor, smallest_enclosing_circle};
+use hexdel_geom::{DVec2, Monitor, smallest_enclosing_circle};
 use hexdel_grid::Lattice;
 
 /// Where a triangle has failed, hexagons are made this much smaller than its
@@ -23,6 +25,10 @@ const REFINEMENT: f64 = 0.6;
 
 /// Edge lengths around a failed triangle within which that happens.
 const REFINED_RADIUS: f64 = 1.5;
+
+/// The largest triangle of a grid over the square of its spacing: equilateral
+/// ones have 0.433, templates and the optimiser make larger ones.
+const AREA_PER_SPACING_SQ: f64 = 0.75;
 
 /// Meshes a planar straight-line graph.
 ///
@@ -73,12 +79,13 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
         let (near, elsewhere): (Vec<u32>, Vec<u32>) =
             bad.iter().partition(|&&t| sector_near(&net, t, &mesher.sectors, mesher.sites()).is_some());
         // What fails beside a narrow sector counts less than any other.
-        let score = elsewhere.len() * 1_000_000 + near.len();
-        demands.extend(elsewhere.iter().map(|&t| demand_at(&net, t)));
+        let large = mesher.too_large(&net);
+        let score = (elsewhere.len() + large.len()) * 1_000_000 + near.len();
+        demands.extend(elsewhere.iter().chain(&large).map(|&t| demand_at(&net, t)));
         if best.as_ref().is_none_or(|(least, _)| score < *least) {
             best = Some((score, net));
         }
-        if elsewhere.is_empty() || attempt == options.retries {
+        if (elsewhere.is_empty() && large.is_empty()) || attempt == options.retries {
             break;
         }
         attempt += 1;
@@ -106,33 +113,49 @@ struct Mesher<'a> {
     pieces: Vec<Piece>,
     sectors: Vec<Sector>,
     wedges: Wedges,
+    areas: Option<AreaLimits<'a>>,
 }
 
 impl<'a> Mesher<'a> {
     fn new(input: &'a Validated, options: &'a Options) -> Self {
         let circle = smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
-        let pieces = input.pieces.clone();
+        let pieces =
+            if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
+        let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
         let sectors = narrow_sectors(input.points.sites(), &pieces, options.near.min_deg());
         let wedges = wedges(&sectors, &pieces);
-        Self { input, options, lattice: lattice_for(circle), reach: circle.radius, pieces, sectors, wedges }
+        Self { input, options, lattice: lattice_for(circle), reach: circle.radius, pieces, sectors, wedges, areas }
     }
 
     fn judge(&self) -> Judge<'_> {
         Judge { near: self.options.near, far: self.options.far, wedges: &self.wedges }
     }
 
-    fn sites(&self) -> &'a [hexdel_geom::DVec2] {
+    fn sites(&self) -> &'a [DVec2] {
         self.input.points.sites()
+    }
+
+    /// The triangles larger than allowed where their centroids lie.
+    fn too_large(&self, net: &Net) -> Vec<u32> {
+        let Some(areas) = &self.areas else { return Vec::new() };
+        let large = |&t: &u32| {
+            let [a, b, c] = net.corners(t);
+            0.5 * (b - a).perp_dot(c - a) > areas.at((a + b + c) / 3.0)
+        };
+        net.alive().filter(large).collect()
     }
 
     /// One mesh, from the grid on.
     fn attempt(&self, demands: &[Demand], monitor: &dyn Monitor) -> Result<Net, PslgError> {
+        let spacing = |p: DVec2| {
+            self.areas.as_ref().map_or(f64::INFINITY, |areas| (areas.at(p) / AREA_PER_SPACING_SQ).sqrt())
+        };
         let features = Features {
             sites: self.sites(),
             pieces: &self.pieces,
             input_of_site: self.input.points.input_of_site(),
             demands,
-            limit: None,
+            limit: self.areas.as_ref().map(|_| &spacing as &dyn Fn(DVec2) -> f64),
             max_triangles: self.options.max_triangles,
         };
         let mut refiner = refine(self.lattice, &features, monitor)?;

@@ -26,7 +26,9 @@ pub struct Options {
     pub near: AngleBounds,
     /// Bounds of all others.
     pub far: AngleBounds,
-    /// The largest area of a triangle, in square units of the input.
+    /// The largest area of a triangle whose centroid lies in the smallest circle
+    /// around the input, in square units of the input. Regions may have limits
+    /// of their own, and keep both.
     pub max_area: Option<f64>,
     /// The most triangles that may come to be.
     pub max_triangles: usize,
