@@ -18,7 +18,12 @@ pub(crate) struct AreaLimits<'a> {
 impl<'a> AreaLimits<'a> {
     /// `None` if there is no limit anywhere. What is carved away if `inside`
     /// has none.
-    pub(crate) fn of(input: &'a Validated, everywhere: Option<f64>, circle: Circle, inside: bool) -> Option<Self> {
+    pub(crate) fn of(
+        input: &'a Validated,
+        everywhere: Option<f64>,
+        circle: Circle,
+        inside: bool,
+    ) -> Option<Self> {
         let regions = &input.pslg.regions;
         if everywhere.is_none() && regions.iter().all(|r| r.max_area.is_none()) {
             return None;

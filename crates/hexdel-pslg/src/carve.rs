@@ -1,7 +1,7 @@
 //! What lies outside and in holes goes; regions are told apart.
 
-use crate::net::{Kind, NONE, Net};
 use crate::net::insert::Place;
+use crate::net::{Kind, NONE, Net};
 use hexdel_geom::DVec2;
 
 /// Takes away what can be reached from the rim without crossing a piece, if

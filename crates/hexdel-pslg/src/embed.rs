@@ -12,8 +12,8 @@ use crate::geometry::distance_sq;
 use crate::net::trace::Trace;
 use crate::net::{Kind, NONE, Net};
 use crate::validate::{Piece, spatial_order};
-use hexdel_geom::monitor::{Monitor, check};
 use hexdel_geom::DVec2;
+use hexdel_geom::monitor::{Monitor, check};
 
 /// A free vertex must keep this many local sizes away from points and
 /// segments: between half of an equilateral triangle's height, where deleting
@@ -21,20 +21,13 @@ use hexdel_geom::DVec2;
 /// 0.45 to 0.7 all values work alike.
 const CLEARANCE: f64 = 0.55;
 
-/// A graph as part of a mesh.
-pub(crate) struct Embedding {
-    pub(crate) net: Net,
-    /// The vertices along each piece, ends included.
-    pub(crate) chains: Vec<Vec<u32>>,
-}
-
 /// Embeds sites and pieces into a mesh that covers them with room to spare.
 pub(crate) fn embed(
     mut net: Net,
     sites: &[DVec2],
     pieces: &[Piece],
     monitor: &dyn Monitor,
-) -> Result<Embedding, PslgError> {
+) -> Result<Net, PslgError> {
     let field = Field::of(&net);
     net.lines = pieces.iter().map(|p| p.ends.map(|s| sites[s as usize])).collect();
     let mut embedder = Embedder { net, field, sizes: Vec::new(), chains: Vec::new(), links: Vec::new() };
@@ -45,7 +38,7 @@ pub(crate) fn embed(
     embedder.clear();
     check(monitor)?;
     embedder.connect(pieces)?;
-    Ok(Embedding { net: embedder.net, chains: embedder.chains })
+    Ok(embedder.net)
 }
 
 struct Embedder {
@@ -53,6 +46,7 @@ struct Embedder {
     field: Field,
     /// The field's size at each vertex.
     sizes: Vec<f64>,
+    /// The vertices along each piece, ends included.
     chains: Vec<Vec<u32>>,
     /// Neighbours of each vertex along pieces.
     links: Vec<Vec<u32>>,
@@ -153,12 +147,9 @@ impl Embedder {
         for (i, piece) in pieces.iter().enumerate() {
             let chain = std::mem::take(&mut self.chains[i]);
             for pair in chain.windows(2) {
-                self.link(pair[0], pair[1], i as u32).map_err(|at| PslgError::NotRecovered {
-                    segment: piece.segment as usize,
-                    at,
-                })?;
+                self.link(pair[0], pair[1], i as u32)
+                    .map_err(|at| PslgError::NotRecovered { segment: piece.segment as usize, at })?;
             }
-            self.chains[i] = chain;
         }
         Ok(())
     }

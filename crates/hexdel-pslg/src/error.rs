@@ -1,6 +1,6 @@
 //! Why a graph is no input, and why one could not be meshed.
 
-use hexdel_geom::{Cancelled, DVec2, PointsError, PslgLayoutError};
+use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, PslgLayoutError};
 use thiserror::Error;
 
 /// Why a graph is no planar straight-line graph.
@@ -98,6 +98,17 @@ pub enum PslgError {
     /// The inside was asked for, and nothing is enclosed by segments.
     #[error("no part of the plane is enclosed by segments and no hole")]
     NothingEnclosed,
+    /// Away from segments the method does not keep the bounds asked for.
+    #[error(
+        "angles between {} and {} degrees are more than the method keeps away from segments ({} to {})",
+        asked.min_deg(), asked.max_deg(), kept.min_deg(), kept.max_deg()
+    )]
+    BoundsBeyondMethod {
+        /// The bounds asked for.
+        asked: AngleBounds,
+        /// The bounds the method keeps.
+        kept: AngleBounds,
+    },
     /// A bound on the triangles' area is not a positive number.
     #[error("{area} is no bound on an area")]
     InvalidArea {

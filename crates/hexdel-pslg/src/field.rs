@@ -47,7 +47,8 @@ impl Field {
         let v = self.net.tri(t).v;
         let [a, b, c] = self.net.corners(t);
         let whole = (b - a).perp_dot(c - a);
-        let [wb, wc] = [(p - a).perp_dot(c - a), (b - a).perp_dot(p - a)].map(|w| (w / whole).clamp(0.0, 1.0));
+        let [wb, wc] =
+            [(p - a).perp_dot(c - a), (b - a).perp_dot(p - a)].map(|w| (w / whole).clamp(0.0, 1.0));
         let wa = (1.0 - wb - wc).max(0.0);
         let [sa, sb, sc] = v.map(|v| self.sizes[v as usize]);
         (wa * sa + wb * sb + wc * sc) / (wa + wb + wc)

@@ -16,7 +16,7 @@ use crate::sizing::{Demand, Features, lattice_for, refine};
 use crate::validate::{Piece, Validated};
 use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
-use hexdel_geom::{DVec2, Monitor, smallest_enclosing_circle};
+use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
 use hexdel_grid::Lattice;
 
 /// Where a triangle has failed, hexagons are made this much smaller than its
@@ -65,9 +65,17 @@ const AREA_PER_SPACING_SQ: f64 = 0.75;
 /// assert!(made.holds() && made.certificate.max_angle_deg <= 90.0 + 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// # Panics
+///
+/// Never; a broken invariant would be a defect of the library.
 pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
     if let Some(area) = options.max_area.filter(|a| !(a.is_finite() && *a > 0.0)) {
         return Err(PslgError::InvalidArea { area });
+    }
+    let (asked, kept) = (options.far, AngleBounds::EXTENDED);
+    if asked.min_deg() > kept.min_deg() || asked.max_deg() < kept.max_deg() {
+        return Err(PslgError::BoundsBeyondMethod { asked, kept });
     }
     let mesher = Mesher::new(input, options);
     let mut demands = Vec::new();
@@ -76,8 +84,7 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     loop {
         let net = mesher.attempt(&demands, monitor)?;
         let bad = bad_triangles(&net, mesher.judge());
-        let (near, elsewhere): (Vec<u32>, Vec<u32>) =
-            bad.iter().partition(|&&t| sector_near(&net, t, &mesher.sectors, mesher.sites()).is_some());
+        let (near, elsewhere): (Vec<u32>, Vec<u32>) = bad.iter().partition(|&&t| mesher.is_hopeless(&net, t));
         // What fails beside a narrow sector counts less than any other.
         let large = mesher.too_large(&net);
         let score = (elsewhere.len() + large.len()) * 1_000_000 + near.len();
@@ -118,13 +125,22 @@ struct Mesher<'a> {
 
 impl<'a> Mesher<'a> {
     fn new(input: &'a Validated, options: &'a Options) -> Self {
-        let circle = smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
-        let pieces =
-            if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
+        let circle =
+            smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
+        let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
         let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
         let sectors = narrow_sectors(input.points.sites(), &pieces, options.near.min_deg());
         let wedges = wedges(&sectors, &pieces);
-        Self { input, options, lattice: lattice_for(circle), reach: circle.radius, pieces, sectors, wedges, areas }
+        Self {
+            input,
+            options,
+            lattice: lattice_for(circle),
+            reach: circle.radius,
+            pieces,
+            sectors,
+            wedges,
+            areas,
+        }
     }
 
     fn judge(&self) -> Judge<'_> {
@@ -133,6 +149,11 @@ impl<'a> Mesher<'a> {
 
     fn sites(&self) -> &'a [DVec2] {
         self.input.points.sites()
+    }
+
+    /// Whether a triangle lies where no mesh could keep the bounds.
+    fn is_hopeless(&self, net: &Net, t: u32) -> bool {
+        sector_near(net, t, &self.sectors, self.sites()).is_some_and(|(s, _)| s.is_hopeless())
     }
 
     /// The triangles larger than allowed where their centroids lie.
@@ -160,22 +181,22 @@ impl<'a> Mesher<'a> {
         };
         let mut refiner = refine(self.lattice, &features, monitor)?;
         let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
-        let too_many =
-            || PslgError::TooMany { limit: self.options.max_triangles, at: self.lattice.origin() };
-        let dual = extract(refiner.grid_mut(), &[], domain, Relocation::Full, monitor).map_err(|e| match e {
-            DualError::Cancelled(c) => PslgError::Cancelled(c),
-            _ => too_many(),
-        })?;
+        let too_many = || PslgError::TooMany { limit: self.options.max_triangles, at: self.lattice.origin() };
+        let dual =
+            extract(refiner.grid_mut(), &[], domain, Relocation::Full, monitor).map_err(|e| match e {
+                DualError::Cancelled(c) => PslgError::Cancelled(c),
+                _ => too_many(),
+            })?;
         if dual.mesh.triangles.len() > self.options.max_triangles {
             return Err(too_many());
         }
-        let mut embedding = embed(Net::of(&dual.mesh), self.sites(), &self.pieces, monitor)?;
-        carve(&mut embedding.net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
-        if embedding.net.alive().next().is_none() {
+        let mut net = embed(Net::of(&dual.mesh), self.sites(), &self.pieces, monitor)?;
+        carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
+        if net.alive().next().is_none() {
             return Err(PslgError::NothingEnclosed);
         }
-        let excused = |net: &Net, t: u32| sector_near(net, t, &self.sectors, self.sites()).is_some();
-        optimise(&mut embedding.net, self.judge(), &excused, monitor)?;
-        Ok(embedding.net)
+        let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
+        optimise(&mut net, self.judge(), &excused, monitor)?;
+        Ok(net)
     }
 }

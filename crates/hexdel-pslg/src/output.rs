@@ -2,9 +2,9 @@
 
 use crate::carve::flood;
 use crate::error::PslgError;
+use crate::fit::count_rings;
 use crate::fit::edits::parameter;
 use crate::fit::judge::{Judge, is_sector};
-use crate::fit::count_rings;
 use crate::net::insert::Place;
 use crate::net::{Kind, NONE, Net};
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
@@ -38,7 +38,9 @@ pub(crate) fn finish(
     check(monitor)?;
     // Where that fails the certificate says so.
     let free = |v: VertexId| net.vertex(numbers.first[v.index()]).kind == Kind::Free;
-    let _ = restore_constrained_delaunay(&mut mesh, parts.judge.near, free, |ends| !bound.contains(&sorted(ends)));
+    let _ = restore_constrained_delaunay(&mut mesh, parts.judge.near, free, |ends| {
+        !bound.contains(&sorted(ends))
+    });
     let vertex_of_point = numbers.vertex_of_point(parts.input);
     let mut point_of_vertex = vec![None; mesh.vertices.len()];
     for (point, v) in vertex_of_point.iter().enumerate().rev() {
@@ -47,11 +49,8 @@ pub(crate) fn finish(
         }
     }
     let (exempt, failed) = exceptions(&net, parts, &numbers);
-    let kept: Vec<DVec2> = vertex_of_point
-        .iter()
-        .zip(&parts.input.pslg.points)
-        .filter_map(|(v, &p)| v.map(|_| p))
-        .collect();
+    let kept: Vec<DVec2> =
+        vertex_of_point.iter().zip(&parts.input.pslg.points).filter_map(|(v, &p)| v.map(|_| p)).collect();
     let options = CertifyOptions {
         bounds: parts.judge.near,
         inputs: Some(&kept),
@@ -154,7 +153,7 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
         for i in 0..3 {
             let (n, piece) = (tri.n[i], tri.s[i]);
             let boundary = n == NONE;
-            if (piece == NONE && !boundary) || (!boundary && n < t) {
+            if !boundary && (piece == NONE || n < t) {
                 continue;
             }
             let [a, b] = tri.edge(i);
@@ -228,13 +227,14 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     let entry = |t: u32, reason: Reason| {
         let corners = net.corners(t);
         let angles = quality::angles_deg(corners);
-        let [min, max] = [angles.iter().copied().fold(360.0, f64::min), angles.iter().copied().fold(0.0, f64::max)];
+        let [min, max] =
+            [angles.iter().copied().fold(360.0, f64::min), angles.iter().copied().fold(0.0, f64::max)];
         let at = (corners[0] + corners[1] + corners[2]) / 3.0;
         let triangle = TriangleId::new(numbers.triangle[t as usize] as usize);
         Exception { triangle, at, angles_deg: [min, max], reason }
     };
     let point = |site: u32| parts.input.points.input_of_site()[site as usize];
-    let failed = net.alive().filter(|&t| parts.judge.penalty(net, t) > 0.0 || parts.judge.is_waived(net, t));
+    let failed = net.alive().filter(|&t| parts.judge.is_out(net, t));
     let failed = failed.map(|t| {
         let near = sector_near(net, t, parts.sectors, parts.input.points.sites());
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
@@ -256,7 +256,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     };
     let exempt = net
         .alive()
-        .filter(|&t| parts.judge.penalty(net, t) == 0.0 && !parts.judge.is_waived(net, t))
+        .filter(|&t| !parts.judge.is_out(net, t))
         .filter_map(|t| sector(t).map(|reason| entry(t, reason)))
         .collect();
     (exempt, failed)

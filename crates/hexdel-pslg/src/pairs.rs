@@ -30,9 +30,9 @@ pub(crate) fn contacts(points: &[DVec2], segments: &[[u32; 2]], tolerance: f64) 
     let (min, max) = bounding_box(points);
     let half = 0.5 * (max - min).max_element();
     let mut finder = Finder { points, segments, tolerance, found: Contacts::default() };
-    let all = (0..segments.len() as u32).collect();
+    let all = [segments.len(), points.len()].map(|n| (0..n as u32).collect::<Vec<_>>());
     // Room for points on the sides.
-    finder.divide(min.midpoint(max), half * 1.001 + tolerance, all, (0..points.len() as u32).collect(), 0);
+    finder.divide(min.midpoint(max), half * 1.001 + tolerance, &all[0], &all[1], 0);
     let mut found = finder.found;
     for list in [&mut found.touching, &mut found.crossing] {
         list.sort_unstable();
@@ -53,9 +53,9 @@ impl Finder<'_> {
         self.segments[s as usize].map(|p| self.points[p as usize])
     }
 
-    fn divide(&mut self, centre: DVec2, half: f64, segments: Vec<u32>, points: Vec<u32>, depth: u32) {
+    fn divide(&mut self, centre: DVec2, half: f64, segments: &[u32], points: &[u32], depth: u32) {
         if segments.len() * (segments.len() + points.len()) <= FEW || depth == DEPTH {
-            self.look(&segments, &points);
+            self.look(segments, points);
             return;
         }
         for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
@@ -69,8 +69,8 @@ impl Finder<'_> {
                 continue;
             }
             let inside = |p: &u32| (self.points[*p as usize] - quarter).abs().max_element() <= reach;
-            let points = points.iter().copied().filter(inside).collect();
-            self.divide(quarter, 0.5 * half, segments, points, depth + 1);
+            let points: Vec<u32> = points.iter().copied().filter(inside).collect();
+            self.divide(quarter, 0.5 * half, &segments, &points, depth + 1);
         }
     }
 
@@ -115,4 +115,32 @@ fn meets([a, b]: [DVec2; 2], centre: DVec2, half: f64) -> bool {
     }
     let u = b - a;
     u.perp_dot(a).abs() <= half * (u.x.abs() + u.y.abs()) * (1.0 + 1e-12)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_tree_finds_what_all_pairs_find(
+            raw in prop::collection::vec((0..12_i8, 0..12_i8), 3..30),
+            ends in prop::collection::vec((0..30_u32, 0..30_u32), 1..40),
+            tolerance in prop::sample::select(vec![0.0, 0.3]),
+        ) {
+            let points: Vec<DVec2> = raw.iter().map(|&(x, y)| DVec2::new(x.into(), y.into())).collect();
+            let n = points.len() as u32;
+            let segments: Vec<[u32; 2]> = ends.iter().map(|&(a, b)| [a % n, b % n]).collect();
+            let found = contacts(&points, &segments, tolerance);
+            let mut all = Finder { points: &points, segments: &segments, tolerance, found: Contacts::default() };
+            let every = [segments.len() as u32, n].map(|n| (0..n).collect::<Vec<_>>());
+            all.look(&every[0], &every[1]);
+            for list in [&mut all.found.touching, &mut all.found.crossing] {
+                list.sort_unstable();
+            }
+            prop_assert_eq!(found.touching, all.found.touching);
+            prop_assert_eq!(found.crossing, all.found.crossing);
+        }
+    }
 }

@@ -26,10 +26,16 @@ pub(crate) struct Sector {
 /// there, that is an angle of 1/8 radian. Below, no mesh keeps 30 degrees.
 const HOPELESS_DEG: f64 = 7.0;
 
+impl Sector {
+    /// Whether no mesh could keep bounds around it.
+    pub(crate) fn is_hopeless(&self) -> bool {
+        self.angle_deg < HOPELESS_DEG
+    }
+}
+
 /// The sectors that are given up.
 pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
-    let pairs: Vec<[u32; 2]> =
-        sectors.iter().filter(|s| s.angle_deg < HOPELESS_DEG).map(|s| s.pieces).collect();
+    let pairs: Vec<[u32; 2]> = sectors.iter().filter(|s| s.is_hopeless()).map(|s| s.pieces).collect();
     Wedges::of(&pairs, pieces.iter().map(|p| p.ends).collect())
 }
 

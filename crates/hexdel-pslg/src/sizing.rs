@@ -74,7 +74,11 @@ pub(crate) fn lattice_for(circle: Circle) -> Lattice {
 /// # Errors
 ///
 /// [`PslgError::TooClose`], [`PslgError::TooMany`], [`PslgError::Cancelled`].
-pub(crate) fn refine(lattice: Lattice, features: &Features<'_>, monitor: &dyn Monitor) -> Result<Refiner, PslgError> {
+pub(crate) fn refine(
+    lattice: Lattice,
+    features: &Features<'_>,
+    monitor: &dyn Monitor,
+) -> Result<Refiner, PslgError> {
     let mut refiner = Refiner::new(lattice, RuleSet::extended());
     let sizer = Sizer { lattice, features };
     let mut leaves: Vec<Leaf> = Hex::ORIGIN
@@ -172,7 +176,8 @@ impl Sizer<'_> {
     fn wants(&self, leaf: &Leaf) -> Result<bool, PslgError> {
         let spacing = self.lattice.spacing(leaf.at.level);
         let culprits = self.culprits(leaf);
-        let limited = || self.features.limit.is_some_and(|limit| spacing > limit(self.lattice.position(leaf.at)));
+        let limited =
+            || self.features.limit.is_some_and(|limit| spacing > limit(self.lattice.position(leaf.at)));
         if culprits.is_none() && !self.is_coarse(leaf, spacing) && !limited() {
             return Ok(false);
         }
@@ -238,7 +243,5 @@ fn apart(pieces: &[u32], ends: impl Fn(u32) -> [u32; 2]) -> Option<[u32; 2]> {
     let [a, b] = ends(first);
     let at = |end| rest.iter().copied().filter(|&j| ends(j).contains(&end)).collect::<Vec<u32>>();
     let (at_a, at_b) = (at(a), at(b));
-    at_a.iter().take(3).chain(at_a.last()).find_map(|&i| {
-        at_b.iter().find(|&&j| !meet(i, j)).map(|&j| [i, j])
-    })
+    at_a.iter().take(3).chain(at_a.last()).find_map(|&i| at_b.iter().find(|&&j| !meet(i, j)).map(|&j| [i, j]))
 }

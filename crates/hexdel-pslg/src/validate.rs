@@ -136,8 +136,14 @@ fn examine(pslg: &Pslg) -> Result<(Validated, Vec<ValidateError>), ValidateError
         return Err(PointsError::TooMany { count: points.sites().len() }.into());
     }
     let (plane, vertex_of_site) = plane_of(points.sites());
-    let validated =
-        Validated { pslg: pslg.clone(), points, pieces: Vec::new(), plane, vertex_of_site, divided: Vec::new() };
+    let validated = Validated {
+        pslg: pslg.clone(),
+        points,
+        pieces: Vec::new(),
+        plane,
+        vertex_of_site,
+        divided: Vec::new(),
+    };
     let mut examiner = Examiner { of: validated, violations: Vec::new() };
     for segment in 0..pslg.segments.len() {
         examiner.segment(segment);
@@ -185,9 +191,8 @@ pub(crate) fn bounding_box(points: &[DVec2]) -> (DVec2, DVec2) {
 pub(crate) fn spatial_order(points: &[DVec2]) -> Vec<u32> {
     let (min, max) = bounding_box(points);
     let scale = f64::from(u32::MAX) / (max - min).max_element().max(f64::MIN_POSITIVE);
-    let spread = |x: f64| {
-        (0..32).fold(0_u64, |bits, i| bits | (u64::from(((x * scale) as u32) >> i & 1) << (2 * i)))
-    };
+    let spread =
+        |x: f64| (0..32).fold(0_u64, |bits, i| bits | (u64::from(((x * scale) as u32) >> i & 1) << (2 * i)));
     let mut order: Vec<(u64, u32)> = points
         .iter()
         .enumerate()
@@ -222,7 +227,9 @@ impl Examiner {
                     return;
                 }
             }
-            if v != goal && let Kind::Site(site) = self.of.plane.vertex(v).kind {
+            if v != goal
+                && let Kind::Site(site) = self.of.plane.vertex(v).kind
+            {
                 let point = self.of.points.input_of_site()[site as usize] as usize;
                 self.of.divided.push(Divided { segment, point });
             }

@@ -6,7 +6,8 @@ use hexdel_geom::{AngleBounds, DVec2, Pslg, Region, Unwatched, quality};
 use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, Reason, mesh, repair, validate};
 
 fn made(pslg: &Pslg, options: &Options) -> PslgMesh {
-    mesh(&validate(pslg).unwrap(), options, &Unwatched).unwrap()
+    let valid = validate(pslg).expect("the graph is planar");
+    mesh(&valid, options, &Unwatched).expect("the graph can be meshed")
 }
 
 fn chain(points: &[(f64, f64)], closed: bool) -> Pslg {
@@ -40,7 +41,10 @@ fn families_keep_their_bounds() {
             assert!(made.holds(), "{name} {seed}: {:?}", made.failed);
             assert_eq!(support::check(&pslg, &made), Ok(()), "{name} {seed}");
             let least = made.certificate.min_angle_deg;
-            assert!(made.certificate.disk && (least > 29.999_999 || !made.exempt.is_empty()), "{name} {seed}: {least}");
+            assert!(
+                made.certificate.disk && (least > 29.999_999 || !made.exempt.is_empty()),
+                "{name} {seed}: {least}"
+            );
         }
     }
 }
@@ -98,16 +102,22 @@ fn random_graphs_give_valid_meshes_or_errors() {
                 assert_eq!(support::check(&graph, &made), Ok(()), "{seed}");
                 meshed += 1;
             }
-            Err(error) => assert!(matches!(error, PslgError::TooClose { .. } | PslgError::TooMany { .. }), "{error}"),
+            Err(error) => {
+                assert!(matches!(error, PslgError::TooClose { .. } | PslgError::TooMany { .. }), "{error}")
+            }
         }
     }
     assert!(meshed > 50 && mended > 10, "{meshed} {mended}");
 }
 
 #[test]
-fn the_same_bytes_come_out_again() {
-    let pslg = support::family("star36", 5);
-    let (a, b) = (made(&pslg, &Options::new()), made(&pslg, &Options::new()));
+fn any_number_of_threads_makes_the_same_mesh() {
+    let pslg = support::family("letter R", 5);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| made(&pslg, &Options::new()))
+    };
+    let (a, b) = (with(1), with(4));
     assert_eq!(a.mesh, b.mesh);
     assert_eq!(a.edges, b.edges);
 }

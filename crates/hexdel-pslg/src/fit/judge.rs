@@ -42,16 +42,16 @@ impl Judge<'_> {
         if self.wedges.hold(net, tri.v) {
             return [WEDGE_LIMITS; 3];
         }
-        self.ordinary_limits(net, t)
+        self.ordinary_limits(net, t, true)
     }
 
-    /// Whether the triangle lies in a wedge and has angles that would be out
-    /// of bounds elsewhere.
-    pub(crate) fn is_waived(&self, net: &Net, t: u32) -> bool {
-        self.wedges.hold(net, net.tri(t).v) && penalty(net.corners(t), self.ordinary_limits(net, t)) > 0.0
+    /// Whether an angle is out of bounds, wherever it is; right angles that
+    /// only the edge between them suffers from are not.
+    pub(crate) fn is_out(&self, net: &Net, t: u32) -> bool {
+        penalty(net.corners(t), self.ordinary_limits(net, t, false)) > 0.0
     }
 
-    fn ordinary_limits(&self, net: &Net, t: u32) -> [Limits; 3] {
+    fn ordinary_limits(&self, net: &Net, t: u32, strict: bool) -> [Limits; 3] {
         let tri = net.tri(t);
         let is_near = tri.v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
         let bounds = if is_near { self.near } else { self.far };
@@ -59,7 +59,7 @@ impl Judge<'_> {
         [0, 1, 2].map(|i| {
             if is_sector(net, t, i) {
                 [0.0, hi]
-            } else if is_near && is_kite(net, t, i) {
+            } else if strict && is_near && is_kite(net, t, i) {
                 [lo, hi.min(90.0 - STRICT_DEG)]
             } else {
                 [lo, hi]

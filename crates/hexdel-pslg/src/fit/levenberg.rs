@@ -61,7 +61,14 @@ impl Levenberg {
     /// Moves `movable` for the sake of `tris`, which are all around them and
     /// maybe others. The net is changed only if that lowers their penalty, with
     /// the limits they have before.
-    pub(crate) fn run(&mut self, net: &mut Net, judge: Judge<'_>, movable: &[u32], tris: &[u32], iterations: u32) {
+    pub(crate) fn run(
+        &mut self,
+        net: &mut Net,
+        judge: Judge<'_>,
+        movable: &[u32],
+        tris: &[u32],
+        iterations: u32,
+    ) {
         self.set_up(net, judge, movable, tris);
         let before = self.penalty(&self.locals);
         if before == 0.0 || self.unknowns == 0 {
@@ -110,7 +117,12 @@ impl Levenberg {
                 if self.slots[v as usize] == ABSENT {
                     self.slots[v as usize] = self.locals.len() as u32;
                     self.names.push(v);
-                    self.locals.push(Local { at: net.at(v), kind: net.vertex(v).kind, unknown: None, along: None });
+                    self.locals.push(Local {
+                        at: net.at(v),
+                        kind: net.vertex(v).kind,
+                        unknown: None,
+                        along: None,
+                    });
                 }
                 self.slots[v as usize]
             });

@@ -123,7 +123,8 @@ pub(crate) fn optimise(
 
 /// Takes out free vertices near segments that have too few triangles.
 fn feed(net: &mut Net) {
-    let mut stack: Vec<u32> = (0..net.vertex_count()).rev().filter(|&v| net.vertex(v).ring <= FAR_RING + 1).collect();
+    let mut stack: Vec<u32> =
+        (0..net.vertex_count()).rev().filter(|&v| net.vertex(v).ring <= FAR_RING + 1).collect();
     let mut star = Vec::new();
     while let Some(v) = stack.pop() {
         if net.vertex(v).kind != Kind::Free || !is_starved(net, v) {
@@ -207,7 +208,14 @@ fn consider(
 
 /// All edits around a triangle that can follow some others, the most promising
 /// first.
-fn ranked(net: &mut Net, judge: Judge<'_>, t: u32, patch: &Patch, done: &[Edit], solver: &mut Levenberg) -> Vec<Edit> {
+fn ranked(
+    net: &mut Net,
+    judge: Judge<'_>,
+    t: u32,
+    patch: &Patch,
+    done: &[Edit],
+    solver: &mut Levenberg,
+) -> Vec<Edit> {
     let mark = net.mark();
     let Some(grown) = apply_all(net, patch, done) else {
         net.rollback(mark);

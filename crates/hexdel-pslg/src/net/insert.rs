@@ -120,10 +120,8 @@ impl Net {
     pub(crate) fn legalise(&mut self, v: u32) {
         let mut star = Vec::with_capacity(8);
         self.star(v, &mut star);
-        let mut stack: Vec<[u32; 2]> = star
-            .iter()
-            .filter_map(|&t| self.tri(t).corner(v).map(|i| self.tri(t).edge(i)))
-            .collect();
+        let mut stack: Vec<[u32; 2]> =
+            star.iter().filter_map(|&t| self.tri(t).corner(v).map(|i| self.tri(t).edge(i))).collect();
         while let Some([a, b]) = stack.pop() {
             let Some((t, i)) = self.find_edge(a, b).filter(|&(t, i)| self.tri(t).v[i] == v) else {
                 continue;
@@ -165,10 +163,8 @@ impl Net {
     pub(crate) fn remove(&mut self, v: u32) -> bool {
         let mut star = Vec::with_capacity(8);
         self.star(v, &mut star);
-        let polygon: Vec<u32> = star
-            .iter()
-            .filter_map(|&t| self.tri(t).corner(v).map(|i| self.tri(t).edge(i)[0]))
-            .collect();
+        let polygon: Vec<u32> =
+            star.iter().filter_map(|&t| self.tri(t).corner(v).map(|i| self.tri(t).edge(i)[0])).collect();
         let Some(ears) = self.ears(polygon) else { return false };
         self.replace(&star, &ears, |_, _| NONE);
         self.retire(v);

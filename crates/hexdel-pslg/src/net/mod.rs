@@ -282,7 +282,11 @@ impl Net {
         // Two triangles may share two edges while a vertex of degree two is
         // being made: then the edge decides.
         let [a, b] = self.tri(t).edge(i);
-        let j = if self.tri(n).edge(j) == [b, a] { j } else { (0..3).find(|&j| self.tri(n).edge(j) == [b, a])? };
+        let j = if self.tri(n).edge(j) == [b, a] {
+            j
+        } else {
+            (0..3).find(|&j| self.tri(n).edge(j) == [b, a])?
+        };
         Some((n, j))
     }
 
@@ -298,12 +302,6 @@ impl Net {
         let vertex = &mut self.vertices[v as usize];
         vertex.at = at;
         vertex.kind = kind;
-    }
-
-    /// Sets what binds a vertex.
-    pub(crate) fn bind(&mut self, v: u32, kind: Kind) {
-        self.note_vertex(v);
-        self.vertices[v as usize].kind = kind;
     }
 
     /// Sets the count of edges to the nearest constrained vertex.
@@ -512,3 +510,6 @@ impl Net {
 fn has_edge(v: [u32; 3], a: u32, b: u32) -> bool {
     (0..3).any(|i| v[i] == a && v[(i + 1) % 3] == b)
 }
+
+#[cfg(test)]
+mod tests;

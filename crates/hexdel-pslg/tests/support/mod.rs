@@ -1,5 +1,8 @@
 //! Families of small graphs, by name and seed, for tests and examples.
 
+#![allow(dead_code, reason = "each of them uses a part")]
+#![allow(unreachable_pub, reason = "it is a module of several programs")]
+
 use hexdel_geom::{DVec2, Pslg};
 use std::f64::consts::TAU;
 
@@ -179,7 +182,8 @@ fn scaled(points: &[(f64, f64)]) -> Vec<DVec2> {
 }
 
 fn letter_a() -> Pslg {
-    let outer = [(0.0, 0.0), (1.2, 0.0), (1.9, 2.0), (4.1, 2.0), (4.8, 0.0), (6.0, 0.0), (3.6, 8.0), (2.4, 8.0)];
+    let outer =
+        [(0.0, 0.0), (1.2, 0.0), (1.9, 2.0), (4.1, 2.0), (4.8, 0.0), (6.0, 0.0), (3.6, 8.0), (2.4, 8.0)];
     let inner = [(2.3, 3.1), (3.7, 3.1), (3.0, 6.0)];
     let mut pslg = chain(&scaled(&outer), true);
     append(&mut pslg, &chain(&scaled(&inner), true));
