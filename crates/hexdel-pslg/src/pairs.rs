@@ -2,8 +2,9 @@
 //!
 //! A square that holds much is divided in four, and each quarter gets what of
 //! the square's lists reaches it. What shares a small square in the end is
-//! looked at pair by pair. Near-linear unless many long segments run side by
-//! side closer than the last squares are wide.
+//! looked at pair by pair. Squares are divided level by level, only as long as
+//! their lists together stay in proportion to the input: segments on top of
+//! each other share every square they pass, however small.
 
 use crate::geometry::distance_sq;
 use crate::validate::bounding_box;
@@ -14,6 +15,18 @@ const FEW: usize = 32;
 
 /// Divisions at most: many segments at one point stay together forever.
 const DEPTH: u32 = 20;
+
+/// Entries in all lists of a level, for each point and segment there is.
+const CROWD: usize = 16;
+
+/// A square and what reaches it.
+struct Square {
+    centre: DVec2,
+    /// Half of its side.
+    half: f64,
+    segments: Vec<u32>,
+    points: Vec<u32>,
+}
 
 /// What touches what.
 #[derive(Debug, Default)]
@@ -30,9 +43,21 @@ pub(crate) fn contacts(points: &[DVec2], segments: &[[u32; 2]], tolerance: f64) 
     let (min, max) = bounding_box(points);
     let half = 0.5 * (max - min).max_element();
     let mut finder = Finder { points, segments, tolerance, found: Contacts::default() };
-    let all = [segments.len(), points.len()].map(|n| (0..n as u32).collect::<Vec<_>>());
+    let [of_segments, of_points] = [segments.len(), points.len()].map(|n| (0..n as u32).collect());
     // Room for points on the sides.
-    finder.divide(min.midpoint(max), half * 1.001 + tolerance, &all[0], &all[1], 0);
+    let half = half * 1.001 + tolerance;
+    let mut squares =
+        vec![Square { centre: min.midpoint(max), half, segments: of_segments, points: of_points }];
+    for _ in 0..DEPTH {
+        let entries: usize = squares.iter().map(|s| s.segments.len() + s.points.len()).sum();
+        if entries > CROWD * (segments.len() + points.len()) {
+            break;
+        }
+        squares = squares.iter().flat_map(|square| finder.divide(square)).collect();
+    }
+    for square in squares {
+        finder.look(&square.segments, &square.points);
+    }
     let mut found = finder.found;
     for list in [&mut found.touching, &mut found.crossing] {
         list.sort_unstable();
@@ -53,25 +78,30 @@ impl Finder<'_> {
         self.segments[s as usize].map(|p| self.points[p as usize])
     }
 
-    fn divide(&mut self, centre: DVec2, half: f64, segments: &[u32], points: &[u32], depth: u32) {
-        if segments.len() * (segments.len() + points.len()) <= FEW || depth == DEPTH {
+    /// The quarters of a square that holds much; of any other, nothing is left
+    /// to be done.
+    fn divide(&mut self, square: &Square) -> Vec<Square> {
+        let Square { centre, half, segments, points } = square;
+        if segments.len() * (segments.len() + points.len()) <= FEW {
             self.look(segments, points);
-            return;
+            return Vec::new();
         }
-        for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
-            let quarter = centre + DVec2::new(x, y) * (0.5 * half);
-            // Half as much again would do no harm; a thousandth and the
-            // tolerance cover rounding and what lies just outside.
+        let quarter = |(x, y)| {
+            let centre = *centre + DVec2::new(x, y) * (0.5 * half);
+            // A thousandth and the tolerance cover rounding and what lies just
+            // outside.
             let reach = 0.5 * half * 1.001 + self.tolerance;
-            let segments: Vec<u32> =
-                segments.iter().copied().filter(|&s| meets(self.ends(s), quarter, reach)).collect();
-            if segments.is_empty() {
-                continue;
+            let meets = |&s: &u32| meets(self.ends(s), centre, reach);
+            let inside = |p: &u32| (self.points[*p as usize] - centre).abs().max_element() <= reach;
+            Square {
+                centre,
+                half: 0.5 * half,
+                segments: segments.iter().copied().filter(meets).collect(),
+                points: points.iter().copied().filter(inside).collect(),
             }
-            let inside = |p: &u32| (self.points[*p as usize] - quarter).abs().max_element() <= reach;
-            let points: Vec<u32> = points.iter().copied().filter(inside).collect();
-            self.divide(quarter, 0.5 * half, &segments, &points, depth + 1);
-        }
+        };
+        let quarters = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)].map(quarter);
+        quarters.into_iter().filter(|q| !q.segments.is_empty()).collect()
     }
 
     fn look(&mut self, segments: &[u32], points: &[u32]) {
