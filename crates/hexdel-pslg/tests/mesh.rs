@@ -103,7 +103,7 @@ fn random_graphs_give_valid_meshes_or_errors() {
                 meshed += 1;
             }
             Err(error) => {
-                assert!(matches!(error, PslgError::TooClose { .. } | PslgError::TooMany { .. }), "{error}")
+                assert!(matches!(error, PslgError::TooClose { .. } | PslgError::TooMany { .. }), "{error}");
             }
         }
     }
