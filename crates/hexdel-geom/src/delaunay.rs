@@ -105,6 +105,21 @@ pub fn restore_delaunay(
     bounds: AngleBounds,
     free: impl Fn(VertexId) -> bool,
 ) -> Result<FlipReport, DelaunayError> {
+    restore_constrained_delaunay(mesh, bounds, free, |_| true)
+}
+
+/// Like [`restore_delaunay`], with edges that must stay: an edge is flipped
+/// only if `flippable` says so of its two ends, in either order.
+///
+/// # Errors
+///
+/// As [`restore_delaunay`].
+pub fn restore_constrained_delaunay(
+    mesh: &mut TriMesh,
+    bounds: AngleBounds,
+    free: impl Fn(VertexId) -> bool,
+    flippable: impl Fn([VertexId; 2]) -> bool,
+) -> Result<FlipReport, DelaunayError> {
     let n = mesh.vertices.len();
     if let Some(t) = mesh.triangles.par_iter().position_first(|&t| !well_formed(t, n)) {
         let triangle = TriangleId::new(t);
@@ -119,7 +134,7 @@ pub fn restore_delaunay(
     let rings = Rings { incidence: &incidence, changed: FxHashMap::default() };
     let spoiling_moves = 1000 + queue.len();
     let queue = queue.into();
-    let mut repair = Repair { mesh, bounds, free, rings, queue, report, spoiling_moves };
+    let mut repair = Repair { mesh, bounds, free, flippable, rings, queue, report, spoiling_moves };
     for _ in 0..budget {
         let Some(ends) = repair.queue.pop_front() else {
             break;
@@ -188,10 +203,11 @@ struct Quad {
     triangles: [u32; 2],
 }
 
-struct Repair<'a, F> {
+struct Repair<'a, F, G> {
     mesh: &'a mut TriMesh,
     bounds: AngleBounds,
     free: F,
+    flippable: G,
     /// Agrees with `mesh.triangles`.
     rings: Rings<'a>,
     /// Contains every edge that is not Delaunay.
@@ -202,13 +218,14 @@ struct Repair<'a, F> {
     spoiling_moves: usize,
 }
 
-impl<F: Fn(VertexId) -> bool> Repair<'_, F> {
+impl<F: Fn(VertexId) -> bool, G: Fn([VertexId; 2]) -> bool> Repair<'_, F, G> {
     fn edge(&mut self, ends: [u32; 2]) -> Result<(), DelaunayError> {
         let Some(quad) = self.bad_quad(ends) else {
             return Ok(());
         };
         let [a, b, c, d] = quad.corners;
-        if [[a, b, d], [b, c, d]].into_iter().all(|t| self.fits(t)) {
+        let flippable = (self.flippable)([a, c].map(|v| VertexId::new(v as usize)));
+        if flippable && [[a, b, d], [b, c, d]].into_iter().all(|t| self.fits(t)) {
             self.flip(&quad);
             return Ok(());
         }

@@ -43,12 +43,25 @@ impl Domain {
     /// subdivided, and a disk gains two with each vertex: what a finer base
     /// level leaves away is counted without making the mesh.
     pub fn smallest(grid: &Grid, relocation: Relocation) -> Self {
+        Self::smallest_reaching(grid, relocation, 0.0)
+    }
+
+    /// Like [`smallest`](Self::smallest), among the patches that hold the disc
+    /// of radius `reach`, in input units, around the lattice's origin with at
+    /// least two rings of leaves to spare. At level 0 any patch is wide enough.
+    pub fn smallest_reaching(grid: &Grid, relocation: Relocation, reach: f64) -> Self {
         let mut best = (i64::MAX, Self { base_level: 0, radius: 1 });
         let mut left_away = 0;
         for level in 0..=grid.tiles().levels() as u8 {
-            let Some(domain) = Self::around(grid, level).filter(|d| d.radius <= Self::WIDEST) else {
+            let Some(mut domain) = Self::around(grid, level) else {
                 break;
             };
+            if reach > 0.0 {
+                domain.radius = domain.radius.max(radius_for(reach / grid.lattice().spacing(level)));
+            }
+            if domain.radius > Self::WIDEST && level > 0 {
+                break;
+            }
             let triangles = 6 * i64::from(domain.radius).pow(2) - left_away;
             if triangles < best.0 {
                 best = (triangles, domain);
@@ -75,6 +88,12 @@ impl Domain {
         // all still has a triangle to show.
         Some(Self { base_level, radius: reach.map_or(1, |n| n as u32 + 1) })
     }
+}
+
+/// Steps to the corners of a patch whose sides are `reach + 2` steps away.
+fn radius_for(reach: f64) -> u32 {
+    // The sides of a hexagon are sqrt(3) / 2 of its corners' distance away.
+    ((reach + 2.0) * 2.0 / 3.0_f64.sqrt()).ceil() as u32
 }
 
 /// All tiles of a level.

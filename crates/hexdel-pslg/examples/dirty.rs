@@ -1,0 +1,80 @@
+//! Meshes small random graphs, planar ones and ones to be repaired, and checks
+//! that each gives a valid mesh with every segment in it, or an error.
+//!
+//! ```text
+//! cargo run --release -p hexdel-pslg --example dirty [COUNT] [FIRST]
+//! ```
+
+#[path = "../tests/support/mod.rs"]
+mod support;
+
+use hexdel_geom::{Pslg, Unwatched};
+use hexdel_pslg::{Options, mesh, repair, validate};
+use std::io::Write;
+use std::time::Instant;
+
+#[derive(Default)]
+struct Tally {
+    good: u32,
+    failed: u32,
+    refused: u32,
+    broken: u32,
+    slowest: (f64, u64),
+}
+
+fn main() -> std::io::Result<()> {
+    let mut args = std::env::args().skip(1).map(|a| a.parse::<u64>().unwrap_or(0));
+    let (count, first) = (args.next().unwrap_or(10_000), args.next().unwrap_or(0));
+    let mut out = std::io::stdout();
+    let (mut clean, mut dirty) = (Tally::default(), Tally::default());
+    for seed in first..first + count {
+        let mut graph = support::random_graph(seed);
+        graph.holes.clear();
+        if validate(&graph).is_ok() {
+            one(&graph, seed, &mut clean, &mut out)?;
+        } else if let Ok((mended, _)) = repair(&graph, 1e-6) {
+            one(&mended, seed, &mut dirty, &mut out)?;
+        }
+    }
+    for (name, t) in [("planar", clean), ("repaired", dirty)] {
+        writeln!(
+            out,
+            "{name}: {} within bounds, {} with failed triangles, {} refused, {} broken; slowest {:.2} s (seed {})",
+            t.good, t.failed, t.refused, t.broken, t.slowest.0, t.slowest.1
+        )?;
+    }
+    Ok(())
+}
+
+fn one(graph: &Pslg, seed: u64, tally: &mut Tally, out: &mut impl Write) -> std::io::Result<()> {
+    let start = Instant::now();
+    let valid = match validate(graph) {
+        Ok(valid) => valid,
+        Err(error) => {
+            tally.refused += 1;
+            return writeln!(out, "{seed}: {error}");
+        }
+    };
+    match mesh(&valid, &Options::new().retries(1).max_triangles(200_000), &Unwatched) {
+        Ok(made) => match support::check(graph, &made) {
+            Ok(()) if made.holds() => tally.good += 1,
+            Ok(()) => tally.failed += 1,
+            Err(what) => {
+                tally.broken += 1;
+                writeln!(out, "{seed}: {what}")?;
+            }
+        },
+        Err(error) => {
+            tally.refused += 1;
+            writeln!(out, "{seed}: {error}")?;
+        }
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    if seconds > 1.0 {
+        writeln!(out, "{seed}: {seconds:.2} s")?;
+    }
+    if seconds > tally.slowest.0 {
+        tally.slowest = (seconds, seed);
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! What lies outside and in holes goes; regions are told apart.
+
+use crate::net::insert::Place;
+use crate::net::{Kind, NONE, Net};
+use hexdel_geom::DVec2;
+
+/// Takes away what can be reached from the rim without crossing a piece, if
+/// `outside`, and from each hole.
+pub(crate) fn carve(net: &mut Net, holes: &[DVec2], outside: bool) {
+    let doomed = reached(net, holes, outside);
+    if doomed.iter().any(|&d| d) {
+        net.carve(&doomed);
+        split_fans(net);
+    }
+}
+
+/// By triangle: whether it can be reached from the rim, if `outside`, or from
+/// a hole.
+pub(crate) fn reached(net: &Net, holes: &[DVec2], outside: bool) -> Vec<bool> {
+    let mut reached = vec![false; net.tri_count() as usize];
+    let mut stack = Vec::new();
+    if outside {
+        stack.extend(net.alive().filter(|&t| {
+            let tri = net.tri(t);
+            (0..3).any(|i| tri.n[i] == NONE && tri.s[i] == NONE)
+        }));
+    }
+    let mut hint = NONE;
+    for &hole in holes {
+        match net.locate(hole, hint) {
+            Place::Inside(t) | Place::Edge(t, _) => {
+                stack.push(t);
+                hint = t;
+            }
+            // A hole that says no side of a segment, or none at all, is none.
+            Place::Vertex(_) | Place::Outside => {}
+        }
+    }
+    flood(net, stack, |t| !std::mem::replace(&mut reached[t as usize], true));
+    reached
+}
+
+/// Visits all triangles that can be reached from some without crossing a
+/// piece, as long as `enter` says that one is new.
+pub(crate) fn flood(net: &Net, mut stack: Vec<u32>, mut enter: impl FnMut(u32) -> bool) {
+    stack.retain(|&t| enter(t));
+    while let Some(t) = stack.pop() {
+        let tri = net.tri(t);
+        for i in 0..3 {
+            if tri.s[i] == NONE && tri.n[i] != NONE && enter(tri.n[i]) {
+                stack.push(tri.n[i]);
+            }
+        }
+    }
+}
+
+/// Gives each fan of triangles at a vertex a vertex of its own: where holes or
+/// the outside touch themselves in a point, the triangles around it are no
+/// single fan any more.
+fn split_fans(net: &mut Net) {
+    let mut tris_of: Vec<u32> = vec![0; net.vertex_count() as usize];
+    for t in net.alive() {
+        for v in net.tri(t).v {
+            tris_of[v as usize] += 1;
+        }
+    }
+    let mut star = Vec::new();
+    let pinched: Vec<u32> = (0..net.vertex_count())
+        .filter(|&v| {
+            if net.vertex(v).kind == Kind::Gone {
+                return false;
+            }
+            net.star(v, &mut star);
+            star.len() < tris_of[v as usize] as usize
+        })
+        .collect();
+    if pinched.is_empty() {
+        return;
+    }
+    let mut at_vertex: Vec<(u32, u32)> = net
+        .alive()
+        .flat_map(|t| net.tri(t).v.map(|v| (v, t)))
+        .filter(|(v, _)| pinched.binary_search(v).is_ok())
+        .collect();
+    at_vertex.sort_unstable();
+    for group in at_vertex.chunk_by(|a, b| a.0 == b.0) {
+        let v = group[0].0;
+        net.star(v, &mut star);
+        let mut rest: Vec<u32> = group.iter().map(|g| g.1).filter(|t| !star.contains(t)).collect();
+        while let Some(&t) = rest.first() {
+            let copy = net.copy_vertex(v, t);
+            net.fan(v, t, &mut star);
+            for &s in &star {
+                net.rename(s, v, copy);
+            }
+            rest.retain(|t| !star.contains(t));
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Why a graph is no input, and why one could not be meshed.
+
+use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, PslgLayoutError};
+use thiserror::Error;
+
+/// Why a graph is no planar straight-line graph.
+///
+/// Points and segments are counted from 0, as given.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ValidateError {
+    /// The arrays do not fit together, or an index is out of range.
+    #[error(transparent)]
+    Layout(#[from] PslgLayoutError),
+    /// There are no points, or one is not finite.
+    #[error(transparent)]
+    Points(#[from] PointsError),
+    /// A coordinate is so large that its square leaves the range of numbers.
+    #[error("point {index} at ({}, {}) is beyond {limit:e}", point.x, point.y)]
+    OutOfRange {
+        /// Index of the point.
+        index: usize,
+        /// The point.
+        point: DVec2,
+        /// The largest coordinate supported.
+        limit: f64,
+    },
+    /// A hole or the point of a region is not finite.
+    #[error("{item} {index} at ({}, {}) is not finite", point.x, point.y)]
+    NotFinite {
+        /// "hole" or "region".
+        item: &'static str,
+        /// Its index.
+        index: usize,
+        /// The point.
+        point: DVec2,
+    },
+    /// The two ends of a segment are the same point.
+    #[error("segment {segment} has no length: both ends are at ({}, {})", at.x, at.y)]
+    ZeroLength {
+        /// Index of the segment.
+        segment: usize,
+        /// Where it is.
+        at: DVec2,
+    },
+    /// Two segments have the same ends.
+    #[error("segments {} and {} are the same, from ({}, {}) to ({}, {})",
+        segments[0], segments[1], ends[0].x, ends[0].y, ends[1].x, ends[1].y)]
+    Duplicate {
+        /// Their indices.
+        segments: [usize; 2],
+        /// Their ends.
+        ends: [DVec2; 2],
+    },
+    /// Two segments on one line share more than a point.
+    #[error("segments {} and {} overlap from ({}, {}) to ({}, {})",
+        segments[0], segments[1], ends[0].x, ends[0].y, ends[1].x, ends[1].y)]
+    Overlap {
+        /// Their indices.
+        segments: [usize; 2],
+        /// The ends of a part that they share.
+        ends: [DVec2; 2],
+    },
+    /// Two segments cross where neither ends.
+    #[error("segments {} and {} cross at ({}, {})", segments[0], segments[1], at.x, at.y)]
+    Crossing {
+        /// Their indices.
+        segments: [usize; 2],
+        /// Where, up to rounding.
+        at: DVec2,
+    },
+}
+
+/// Why a valid graph could not be meshed.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PslgError {
+    /// Two parts of the input are closer than their coordinates can resolve:
+    /// vertices between them would be rounded by more than angles bear.
+    #[error("{} and {} are too close at ({}, {}): hexagons of {spacing:e} do not tell them apart",
+        items[0], items[1], at.x, at.y)]
+    TooClose {
+        /// The two parts.
+        items: [Feature; 2],
+        /// Where.
+        at: DVec2,
+        /// Spacing of the finest hexagons that the coordinates resolve there.
+        spacing: f64,
+    },
+    /// The budget of triangles is used up.
+    #[error("more than {limit} triangles are needed; the finest around ({}, {})", at.x, at.y)]
+    TooMany {
+        /// The limit.
+        limit: usize,
+        /// Where the size is smallest.
+        at: DVec2,
+    },
+    /// The inside was asked for, and nothing is enclosed by segments.
+    #[error("no part of the plane is enclosed by segments and no hole")]
+    NothingEnclosed,
+    /// Away from segments the method does not keep the bounds asked for.
+    #[error(
+        "angles between {} and {} degrees are more than the method keeps away from segments ({} to {})",
+        asked.min_deg(), asked.max_deg(), kept.min_deg(), kept.max_deg()
+    )]
+    BoundsBeyondMethod {
+        /// The bounds asked for.
+        asked: AngleBounds,
+        /// The bounds the method keeps.
+        kept: AngleBounds,
+    },
+    /// A bound on the triangles' area is not a positive number.
+    #[error("{area} is no bound on an area")]
+    InvalidArea {
+        /// The bound.
+        area: f64,
+    },
+    /// A segment could not be made a union of edges within the budget.
+    #[error("segment {segment} could not be recovered near ({}, {})", at.x, at.y)]
+    NotRecovered {
+        /// Its index.
+        segment: usize,
+        /// Where.
+        at: DVec2,
+    },
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// A point or segment of the input, by index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// A point.
+    Point(usize),
+    /// A segment.
+    Segment(usize),
+    /// An edge of the convex hull that is no segment.
+    Hull,
+}
+
+impl std::fmt::Display for Feature {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Point(i) => write!(f, "point {i}"),
+            Self::Segment(i) => write!(f, "segment {i}"),
+            Self::Hull => write!(f, "the convex hull"),
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Triangle meshes of planar straight-line graphs.
+//!
+//! Section 7 of the paper puts segments into the grid by templates, and loses
+//! its bounds there. Here the grid is only made fine enough for the segments;
+//! they are embedded into its dual mesh, and an optimiser brings the angles
+//! around them between 30 and 90 degrees. Two edges away from points and
+//! segments the bounds of the plain mesh hold, 43.9 to 90 degrees. No angle is
+//! obtuse, so that segments are edges of the Delaunay triangulation of the
+//! vertices, not only of a constrained one.
+//!
+//! [`validate`] says whether a graph is planar, [`repair`] makes it so, [`mesh`]
+//! meshes it. Success of the optimiser is not proved: what does not keep its
+//! bounds is listed in [`PslgMesh::failed`]. Where segments meet at less than
+//! the lower bound, that one angle is exempt; below 7 degrees no mesh could keep
+//! the bounds around it, and nothing is asked for between the two segments.
+//!
+//! | module | what |
+//! |---|---|
+//! | `validate` | is it planar? |
+//! | `pairs`, `repair` | what touches, and what to do about it |
+//! | `sizing` | how fine the grid must be |
+//! | `areas` | limits on the area of triangles |
+//! | `hull` | the convex hull as a boundary |
+//! | `net` | a triangulation that can be changed, and changes taken back |
+//! | `field` | the size of a mesh at every place |
+//! | `embed` | points and segments go into the mesh |
+//! | `carve` | holes and the outside go |
+//! | `sectors` | corners that are narrower than the bound |
+//! | `fit` | the optimiser |
+//! | `mesher` | the order of things |
+//! | `output` | the result |
+//!
+//! Left to others: reading and writing (`hexdel-io`), the templates of the
+//! paper's section 7, and fewer triangles than the grid has.
+
+mod areas;
+mod carve;
+mod embed;
+mod error;
+mod field;
+mod fit;
+mod geometry;
+mod hull;
+mod mesher;
+mod net;
+mod options;
+mod output;
+mod pairs;
+
+mod repair;
+mod result;
+mod sectors;
+mod sizing;
+mod validate;
+pub use error::{Feature, PslgError, ValidateError};
+pub use mesher::mesh;
+pub use options::{Extent, Options};
+pub use repair::{Repair, RepairReport, repair};
+pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
+pub use validate::{Divided, Validated, validate, violations};

@@ -1,0 +1,202 @@
+//! From a valid graph to its mesh: the order of things.
+
+use crate::areas::AreaLimits;
+use crate::carve::carve;
+use crate::embed::embed;
+use crate::error::PslgError;
+use crate::fit::judge::{Judge, Wedges};
+use crate::fit::{bad_triangles, optimise};
+use crate::hull::with_hull;
+use crate::net::Net;
+use crate::options::{Extent, Options};
+use crate::output::{self, Parts};
+use crate::result::PslgMesh;
+use crate::sectors::{Sector, narrow_sectors, sector_near, wedges};
+use crate::sizing::{Demand, Features, lattice_for, refine};
+use crate::validate::{Piece, Validated};
+use hexdel_classify::{Domain, DualError, Relocation, extract};
+use hexdel_geom::monitor::check;
+use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
+use hexdel_grid::Lattice;
+
+/// Where a triangle has failed, hexagons are made this much smaller than its
+/// edges; levels being powers of two, that is one level.
+const REFINEMENT: f64 = 0.6;
+
+/// Edge lengths around a failed triangle within which that happens.
+const REFINED_RADIUS: f64 = 1.5;
+
+/// The largest triangle of a grid over the square of its spacing: equilateral
+/// ones have 0.433, templates and the optimiser make larger ones.
+const AREA_PER_SPACING_SQ: f64 = 0.75;
+
+/// Meshes a planar straight-line graph.
+///
+/// # Guarantees
+///
+/// Every input point in the extent is a vertex, bit for bit; every segment in
+/// it is a union of edges, whose other vertices are the doubles nearest to
+/// points of the segment. Every triangle is counter-clockwise, exactly, for the
+/// coordinates as they are. Triangles that do not keep their bounds are listed
+/// with the reason; that there are none is not guaranteed, but where segments
+/// meet at 30 degrees or more it is what to expect. Same input, same bytes, at
+/// any number of threads.
+///
+/// # Errors
+///
+/// [`PslgError`]. Work is bounded by [`Options::max_triangles`] and
+/// [`Options::retries`].
+///
+/// # Complexity
+///
+/// Near-linear in the number of triangles.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::{DVec2, Pslg, Unwatched};
+/// use hexdel_pslg::{Extent, Options, mesh, validate};
+///
+/// let mut square = Pslg::from_points(
+///     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec2::new(x, y)).to_vec(),
+/// );
+/// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0]];
+/// let made = mesh(&validate(&square)?, &Options::new().extent(Extent::Inside), &Unwatched)?;
+/// assert!(made.holds() && made.certificate.max_angle_deg <= 90.0 + 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Panics
+///
+/// Never; a broken invariant would be a defect of the library.
+pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
+    if let Some(area) = options.max_area.filter(|a| !(a.is_finite() && *a > 0.0)) {
+        return Err(PslgError::InvalidArea { area });
+    }
+    let (asked, kept) = (options.far, AngleBounds::EXTENDED);
+    if asked.min_deg() > kept.min_deg() || asked.max_deg() < kept.max_deg() {
+        return Err(PslgError::BoundsBeyondMethod { asked, kept });
+    }
+    let mesher = Mesher::new(input, options);
+    let mut demands = Vec::new();
+    let mut best: Option<(usize, Net)> = None;
+    let mut attempt = 0;
+    loop {
+        let net = mesher.attempt(&demands, monitor)?;
+        let bad = bad_triangles(&net, mesher.judge());
+        let (near, elsewhere): (Vec<u32>, Vec<u32>) = bad.iter().partition(|&&t| mesher.is_hopeless(&net, t));
+        // What fails beside a narrow sector counts less than any other.
+        let large = mesher.too_large(&net);
+        let score = (elsewhere.len() + large.len()) * 1_000_000 + near.len();
+        demands.extend(elsewhere.iter().chain(&large).map(|&t| demand_at(&net, t)));
+        if best.as_ref().is_none_or(|(least, _)| score < *least) {
+            best = Some((score, net));
+        }
+        if (elsewhere.is_empty() && large.is_empty()) || attempt == options.retries {
+            break;
+        }
+        attempt += 1;
+    }
+    let (_, net) = best.expect("the first attempt is the best of one at least");
+    check(monitor)?;
+    let parts = Parts { input, pieces: &mesher.pieces, sectors: &mesher.sectors, judge: mesher.judge() };
+    output::finish(net, &parts, attempt, monitor)
+}
+
+/// A wish for smaller hexagons around a failed triangle.
+fn demand_at(net: &Net, t: u32) -> Demand {
+    let [a, b, c] = net.corners(t);
+    let lengths = [a.distance(b), b.distance(c), c.distance(a)];
+    let mean = lengths.iter().sum::<f64>() / 3.0;
+    Demand { centre: (a + b + c) / 3.0, radius: REFINED_RADIUS * mean, spacing: REFINEMENT * mean }
+}
+
+struct Mesher<'a> {
+    input: &'a Validated,
+    options: &'a Options,
+    lattice: Lattice,
+    /// Radius of the disc that the domain must hold.
+    reach: f64,
+    pieces: Vec<Piece>,
+    sectors: Vec<Sector>,
+    wedges: Wedges,
+    areas: Option<AreaLimits<'a>>,
+}
+
+impl<'a> Mesher<'a> {
+    fn new(input: &'a Validated, options: &'a Options) -> Self {
+        let circle =
+            smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
+        let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
+        let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
+        let sectors = narrow_sectors(input.points.sites(), &pieces, options.near.min_deg());
+        let wedges = wedges(&sectors, &pieces);
+        Self {
+            input,
+            options,
+            lattice: lattice_for(circle),
+            reach: circle.radius,
+            pieces,
+            sectors,
+            wedges,
+            areas,
+        }
+    }
+
+    fn judge(&self) -> Judge<'_> {
+        Judge { near: self.options.near, far: self.options.far, wedges: &self.wedges }
+    }
+
+    fn sites(&self) -> &'a [DVec2] {
+        self.input.points.sites()
+    }
+
+    /// Whether a triangle lies where no mesh could keep the bounds.
+    fn is_hopeless(&self, net: &Net, t: u32) -> bool {
+        sector_near(net, t, &self.sectors, self.sites()).is_some_and(|(s, _)| s.is_hopeless())
+    }
+
+    /// The triangles larger than allowed where their centroids lie.
+    fn too_large(&self, net: &Net) -> Vec<u32> {
+        let Some(areas) = &self.areas else { return Vec::new() };
+        let large = |&t: &u32| {
+            let [a, b, c] = net.corners(t);
+            0.5 * (b - a).perp_dot(c - a) > areas.at((a + b + c) / 3.0)
+        };
+        net.alive().filter(large).collect()
+    }
+
+    /// One mesh, from the grid on.
+    fn attempt(&self, demands: &[Demand], monitor: &dyn Monitor) -> Result<Net, PslgError> {
+        let spacing = |p: DVec2| {
+            self.areas.as_ref().map_or(f64::INFINITY, |areas| (areas.at(p) / AREA_PER_SPACING_SQ).sqrt())
+        };
+        let features = Features {
+            sites: self.sites(),
+            pieces: &self.pieces,
+            input_of_site: self.input.points.input_of_site(),
+            demands,
+            limit: self.areas.as_ref().map(|_| &spacing as &dyn Fn(DVec2) -> f64),
+            max_triangles: self.options.max_triangles,
+        };
+        let mut refiner = refine(self.lattice, &features, monitor)?;
+        let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
+        let too_many = || PslgError::TooMany { limit: self.options.max_triangles, at: self.lattice.origin() };
+        let dual =
+            extract(refiner.grid_mut(), &[], domain, Relocation::Full, monitor).map_err(|e| match e {
+                DualError::Cancelled(c) => PslgError::Cancelled(c),
+                _ => too_many(),
+            })?;
+        if dual.mesh.triangles.len() > self.options.max_triangles {
+            return Err(too_many());
+        }
+        let mut net = embed(Net::of(&dual.mesh), self.sites(), &self.pieces, monitor)?;
+        carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
+        if net.alive().next().is_none() {
+            return Err(PslgError::NothingEnclosed);
+        }
+        let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
+        optimise(&mut net, self.judge(), &excused, monitor)?;
+        Ok(net)
+    }
+}

@@ -1,0 +1,95 @@
+//! What to make of a graph.
+
+use hexdel_geom::AngleBounds;
+
+/// What part of the plane a mesh covers. Holes are left out of each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Extent {
+    /// A regular hexagon around the input.
+    #[default]
+    Hexagon,
+    /// The convex hull of the points. Its edges become segments.
+    Hull,
+    /// What is enclosed by segments.
+    Inside,
+}
+
+/// How a graph is meshed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// What is covered.
+    pub extent: Extent,
+    /// Bounds of triangles that have a vertex at most one edge away from a
+    /// point or segment of the input.
+    pub near: AngleBounds,
+    /// Bounds of all others.
+    pub far: AngleBounds,
+    /// The largest area of a triangle whose centroid lies in the smallest circle
+    /// around the input, in square units of the input. Regions may have limits
+    /// of their own, and keep both.
+    pub max_area: Option<f64>,
+    /// The most triangles that may come to be.
+    pub max_triangles: usize,
+    /// How often the mesh is made anew with smaller triangles where bounds
+    /// were not met.
+    pub retries: u32,
+}
+
+impl Default for Options {
+    /// A hexagon, 30 to 90 degrees near segments, 43.9 to 90 elsewhere, no
+    /// limit on areas, 50 million triangles, four retries.
+    fn default() -> Self {
+        Self {
+            extent: Extent::Hexagon,
+            near: AngleBounds::new(30.0, 90.0).unwrap_or(AngleBounds::SIMPLE),
+            far: AngleBounds::EXTENDED,
+            max_area: None,
+            max_triangles: 50_000_000,
+            retries: 4,
+        }
+    }
+}
+
+impl Options {
+    /// The default options.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// With this part of the plane covered.
+    #[must_use]
+    pub fn extent(mut self, extent: Extent) -> Self {
+        self.extent = extent;
+        self
+    }
+
+    /// With these bounds near points and segments.
+    #[must_use]
+    pub fn near(mut self, near: AngleBounds) -> Self {
+        self.near = near;
+        self
+    }
+
+    /// With a limit on the area of triangles.
+    #[must_use]
+    pub fn max_area(mut self, area: f64) -> Self {
+        self.max_area = Some(area);
+        self
+    }
+
+    /// With at most so many attempts after the first.
+    #[must_use]
+    pub fn retries(mut self, retries: u32) -> Self {
+        self.retries = retries;
+        self
+    }
+
+    /// With at most so many triangles.
+    #[must_use]
+    pub fn max_triangles(mut self, limit: usize) -> Self {
+        self.max_triangles = limit;
+        self
+    }
+}

@@ -1,0 +1,116 @@
+//! Corners of the input that are narrower than the bound.
+
+use crate::fit::judge::Wedges;
+use crate::geometry::distance_sq;
+use crate::net::Net;
+use crate::validate::Piece;
+use hexdel_geom::{DVec2, quality};
+use std::f64::consts::TAU;
+
+/// A corner between two neighbouring pieces at a site.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sector {
+    pub(crate) site: u32,
+    /// The pieces on both sides.
+    pub(crate) pieces: [u32; 2],
+    /// Less than the bound.
+    pub(crate) angle_deg: f64,
+    /// The bisector, as long as the longer side.
+    bisector: DVec2,
+}
+
+/// Sectors below this many degrees are given up. On the outer side of a
+/// segment, three triangles of 60 degrees around a vertex, each with sides as
+/// 1 to 2, bring edges as 1 to 8 together: with the sector's first edge as long
+/// as its distance from the corner and the next as long as the sector is wide
+/// there, that is an angle of 1/8 radian. Below, no mesh keeps 30 degrees.
+const HOPELESS_DEG: f64 = 7.0;
+
+impl Sector {
+    /// Whether no mesh could keep bounds around it.
+    pub(crate) fn is_hopeless(&self) -> bool {
+        self.angle_deg < HOPELESS_DEG
+    }
+}
+
+/// The sectors that are given up.
+pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
+    let pairs: Vec<[u32; 2]> = sectors.iter().filter(|s| s.is_hopeless()).map(|s| s.pieces).collect();
+    Wedges::of(&pairs, pieces.iter().map(|p| p.ends).collect())
+}
+
+/// All sectors narrower than `least_deg`.
+pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], least_deg: f64) -> Vec<Sector> {
+    let mut rays: Vec<(u32, f64, u32)> = pieces
+        .iter()
+        .zip(0..)
+        .flat_map(|(piece, i)| {
+            let [a, b] = piece.ends;
+            let direction = |from: u32, to: u32| {
+                let u = sites[to as usize] - sites[from as usize];
+                (from, libm_atan2(u), i)
+            };
+            [direction(a, b), direction(b, a)]
+        })
+        .collect();
+    rays.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut sectors = Vec::new();
+    for group in rays.chunk_by(|a, b| a.0 == b.0) {
+        if group.len() < 2 {
+            continue;
+        }
+        for (i, ray) in group.iter().enumerate() {
+            let next = group[(i + 1) % group.len()];
+            let angle_deg = (next.1 - ray.1).rem_euclid(TAU).to_degrees();
+            if angle_deg < least_deg {
+                sectors.push(Sector {
+                    site: ray.0,
+                    pieces: [ray.2, next.2],
+                    angle_deg,
+                    bisector: bisector(sites, pieces, ray.0, [ray.2, next.2]),
+                });
+            }
+        }
+    }
+    sectors
+}
+
+fn bisector(sites: &[DVec2], pieces: &[Piece], site: u32, sides: [u32; 2]) -> DVec2 {
+    let sides = sides.map(|p| {
+        let [a, b] = pieces[p as usize].ends;
+        sites[(if a == site { b } else { a }) as usize] - sites[site as usize]
+    });
+    let direction = sides[0].normalize_or_zero() + sides[1].normalize_or_zero();
+    direction.normalize_or_zero() * sides[0].length().max(sides[1].length())
+}
+
+/// The direction of a vector, by the portable arc tangent of the angles.
+fn libm_atan2(u: DVec2) -> f64 {
+    quality::angles_rad([DVec2::ZERO, DVec2::X * u.length(), u])[0]
+}
+
+/// Edges around a narrow sector on which its fault may spread: those that meet
+/// it and two more rings, in which sizes find back to the mesh's own.
+const SPREAD: f64 = 3.0;
+
+/// The sector that may be blamed for a triangle's angles, and how far away its
+/// corner is.
+///
+/// At a distance `r` from the corner the sector is `r sin(angle)` wide; where
+/// that is less than an edge nothing between its sides has good angles.
+pub(crate) fn sector_near(net: &Net, t: u32, sectors: &[Sector], sites: &[DVec2]) -> Option<(Sector, f64)> {
+    let [a, b, c] = net.corners(t);
+    let centre = (a + b + c) / 3.0;
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    let blamed = |s: &Sector| {
+        let corner = sites[s.site as usize];
+        let narrow = longest / s.angle_deg.to_radians().sin();
+        let end = corner + s.bisector * (narrow / s.bisector.length()).min(1.0);
+        distance_sq(centre, corner, end) <= (SPREAD * longest).powi(2)
+    };
+    sectors
+        .iter()
+        .filter(|s| blamed(s))
+        .map(|s| (*s, sites[s.site as usize].distance(centre)))
+        .min_by(|x, y| x.1.total_cmp(&y.1))
+}

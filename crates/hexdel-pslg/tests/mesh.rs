@@ -1,0 +1,252 @@
+//! Meshes of small graphs: bounds, extents, holes, regions, markers, errors.
+
+mod support;
+
+use hexdel_geom::{AngleBounds, DVec2, Pslg, Region, Unwatched, quality};
+use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, Reason, mesh, repair, validate};
+
+fn made(pslg: &Pslg, options: &Options) -> PslgMesh {
+    let valid = validate(pslg).expect("the graph is planar");
+    mesh(&valid, options, &Unwatched).expect("the graph can be meshed")
+}
+
+fn chain(points: &[(f64, f64)], closed: bool) -> Pslg {
+    let mut pslg = Pslg::from_points(points.iter().map(|&(x, y)| DVec2::new(x, y)).collect());
+    let n = points.len() as u32;
+    pslg.segments = (0..n - u32::from(!closed)).map(|i| [i, (i + 1) % n]).collect();
+    pslg
+}
+
+fn append(to: &mut Pslg, other: &Pslg) {
+    let base = to.points.len() as u32;
+    to.points.extend(&other.points);
+    to.segments.extend(other.segments.iter().map(|s| s.map(|p| p + base)));
+}
+
+fn square(at: f64, side: f64) -> Pslg {
+    chain(&[(at, at), (at + side, at), (at + side, at + side), (at, at + side)], true)
+}
+
+fn area(mesh: &PslgMesh, t: usize) -> f64 {
+    let [a, b, c] = mesh.mesh.corners(hexdel_geom::TriangleId::new(t));
+    0.5 * (b - a).perp_dot(c - a)
+}
+
+#[test]
+fn families_keep_their_bounds() {
+    for name in support::FAMILIES {
+        for seed in 1000..1004 {
+            let pslg = support::family(name, seed);
+            let made = made(&pslg, &Options::new());
+            assert!(made.holds(), "{name} {seed}: {:?}", made.failed);
+            assert_eq!(support::check(&pslg, &made), Ok(()), "{name} {seed}");
+            let least = made.certificate.min_angle_deg;
+            assert!(
+                made.certificate.disk && (least > 29.999_999 || !made.exempt.is_empty()),
+                "{name} {seed}: {least}"
+            );
+        }
+    }
+}
+
+/// Two edges from points and segments the bounds of the plain mesh hold, seen
+/// from outside: by the edges of the result alone.
+#[test]
+fn two_rings_away_the_plain_bounds_hold() {
+    let pslg = support::family("letter R", 7);
+    let made = made(&pslg, &Options::new());
+    let mut ring = vec![u32::MAX; made.mesh.vertices.len()];
+    for v in made.edges.iter().filter(|e| e.segment.is_some()).flat_map(|e| e.ends) {
+        ring[v.index()] = 0;
+    }
+    for v in made.vertex_of_point.iter().flatten() {
+        ring[v.index()] = 0;
+    }
+    for step in 1..3 {
+        for t in &made.mesh.triangles {
+            if t.iter().any(|v| ring[v.index()] == step - 1) {
+                for v in t {
+                    ring[v.index()] = ring[v.index()].min(step);
+                }
+            }
+        }
+    }
+    let mut far = 0;
+    for (i, t) in made.mesh.triangles.iter().enumerate() {
+        if t.iter().all(|v| ring[v.index()] >= 2) {
+            far += 1;
+            let corners = made.mesh.corners(hexdel_geom::TriangleId::new(i));
+            let angles = quality::angles_deg(corners);
+            let least = AngleBounds::EXTENDED.min_deg() - 1e-9;
+            assert!(angles.iter().all(|&a| a >= least && a <= 90.0 + 1e-9), "{corners:?} {angles:?}");
+        }
+    }
+    assert!(far > 100);
+}
+
+#[test]
+fn random_graphs_give_valid_meshes_or_errors() {
+    let (mut meshed, mut mended) = (0, 0);
+    for seed in 0..60 {
+        let mut graph = support::random_graph(seed);
+        graph.holes.clear();
+        if validate(&graph).is_err() {
+            let (better, report) = repair(&graph, 1e-6).unwrap();
+            assert!(report.complete, "{seed}");
+            graph = better;
+            mended += 1;
+        }
+        let options = Options::new().retries(0).max_triangles(100_000);
+        match mesh(&validate(&graph).unwrap(), &options, &Unwatched) {
+            Ok(made) => {
+                assert_eq!(support::check(&graph, &made), Ok(()), "{seed}");
+                meshed += 1;
+            }
+            Err(error) => {
+                assert!(matches!(error, PslgError::TooClose { .. } | PslgError::TooMany { .. }), "{error}");
+            }
+        }
+    }
+    assert!(meshed > 50 && mended > 10, "{meshed} {mended}");
+}
+
+#[test]
+fn any_number_of_threads_makes_the_same_mesh() {
+    let pslg = support::family("letter R", 5);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| made(&pslg, &Options::new()))
+    };
+    let (a, b) = (with(1), with(4));
+    assert_eq!(a.mesh, b.mesh);
+    assert_eq!(a.edges, b.edges);
+}
+
+#[test]
+fn holes_and_the_outside_are_carved() {
+    let mut pslg = square(0.0, 4.0);
+    append(&mut pslg, &square(1.0, 1.0));
+    pslg.holes.push(DVec2::splat(1.5));
+    let inside = made(&pslg, &Options::new().extent(Extent::Inside));
+    assert!(inside.holds());
+    let total: f64 = (0..inside.mesh.triangles.len()).map(|t| area(&inside, t)).sum();
+    assert!((total - 15.0).abs() < 1e-9, "{total}");
+    assert_eq!(inside.certificate.boundary_loops, 2);
+    assert_eq!(inside.certificate.euler_characteristic, 0);
+    assert!(inside.edges.iter().all(|e| e.boundary && e.segment.is_some() && e.marker == 1));
+    let hexagon = made(&pslg, &Options::new());
+    assert_eq!(hexagon.certificate.euler_characteristic, 0);
+}
+
+#[test]
+fn the_hull_is_a_boundary() {
+    let mut pslg = chain(&[(0.0, 0.0), (3.0, 1.0)], false);
+    pslg.points.extend([DVec2::new(4.0, -1.0), DVec2::new(1.0, 3.0), DVec2::new(2.0, 1.5)]);
+    let hull = made(&pslg, &Options::new().extent(Extent::Hull));
+    assert!(hull.holds(), "{:?}", hull.failed);
+    // Corners (0, 0), (4, -1), (3, 1), (1, 3).
+    let total: f64 = (0..hull.mesh.triangles.len()).map(|t| area(&hull, t)).sum();
+    assert!((total - 7.5).abs() < 1e-9, "{total}");
+    assert!(hull.edges.iter().any(|e| e.boundary && e.segment.is_none()));
+    assert!(hull.edges.iter().any(|e| !e.boundary && e.segment == Some(0)));
+}
+
+#[test]
+fn points_nearly_in_line_on_the_hull_are_no_gap() {
+    let turn = DVec2::from_angle(0.3);
+    let mut pslg = square(0.0, 1.0);
+    pslg.points.extend((1..5).map(|i| DVec2::new(0.2 * f64::from(i), 0.0)));
+    pslg.segments[0] = [0, 4];
+    pslg.segments.extend([[4, 5], [5, 6], [6, 7], [7, 1]]);
+    for p in &mut pslg.points {
+        *p = turn.rotate(*p);
+    }
+    let hull = made(&pslg, &Options::new().extent(Extent::Hull));
+    assert!(hull.holds(), "{:?}", hull.failed);
+}
+
+#[test]
+fn regions_have_attributes_and_areas() {
+    let mut pslg = square(0.0, 2.0);
+    pslg.points.extend([DVec2::new(1.0, 0.0), DVec2::new(1.0, 2.0)]);
+    pslg.segments.push([4, 5]);
+    let region = |x, attribute, max_area| Region { point: DVec2::new(x, 1.0), attribute, max_area };
+    pslg.regions = vec![region(0.5, 7.0, None), region(1.5, 8.0, Some(0.004))];
+    let made = made(&pslg, &Options::new().extent(Extent::Inside).max_area(0.1));
+    assert!(made.holds());
+    for (t, region) in made.region_of_triangle.iter().enumerate() {
+        let [a, b, c] = made.mesh.corners(hexdel_geom::TriangleId::new(t));
+        let right = (a + b + c).x > 3.0;
+        assert_eq!(*region, Some(u32::from(right)));
+        assert!(area(&made, t) <= if right { 0.004 } else { 0.1 });
+    }
+    // The bottom and the top are divided by the ends of the middle.
+    assert_eq!(validate(&pslg).unwrap().divided().len(), 2);
+}
+
+#[test]
+fn markers_follow_triangles_habits() {
+    let mut pslg = square(0.0, 1.0);
+    pslg.points.push(DVec2::new(0.4, 0.5));
+    pslg.point_markers = vec![0, 5, 0, 0, 0];
+    pslg.segment_markers = vec![3, 0, 0, 0];
+    let made = made(&pslg, &Options::new().extent(Extent::Inside));
+    let marker = |point: usize| made.vertex_markers[made.vertex_of_point[point].unwrap().index()];
+    assert_eq!([0, 1, 2, 4].map(marker), [3, 5, 1, 0]);
+    for e in &made.edges {
+        assert_eq!(e.marker, if e.segment == Some(0) { 3 } else { 1 });
+    }
+    let of_first = made.edges.iter().filter(|e| e.segment == Some(0)).count();
+    assert_eq!(made.edges_of_segment[0] as usize, of_first);
+}
+
+#[test]
+fn holes_that_touch_in_a_point_share_its_vertex() {
+    let mut pslg = square(0.0, 8.0);
+    append(&mut pslg, &chain(&[(2.0, 2.0), (4.0, 2.5), (4.0, 4.0), (2.5, 4.0)], true));
+    append(&mut pslg, &chain(&[(4.0, 4.0), (6.0, 4.5), (6.0, 6.0), (4.5, 6.0)], true));
+    pslg.holes = vec![DVec2::splat(3.0), DVec2::splat(5.0)];
+    let made = made(&pslg, &Options::new().extent(Extent::Inside));
+    assert!(made.failed.is_empty(), "{:?}", made.failed);
+    assert_eq!(support::check(&pslg, &made), Ok(()));
+    assert_eq!(made.vertex_of_point[6], made.vertex_of_point[8]);
+}
+
+#[test]
+fn narrow_corners_are_exempt_and_named() {
+    let pslg = chain(&[(1.0, 0.0), (0.0, 0.0), (0.92, 0.39)], false);
+    let made = made(&pslg, &Options::new());
+    assert!(made.holds(), "{:?}", made.failed);
+    assert_eq!(made.exempt.len(), 1);
+    let Reason::Sector { point: 1, angle_deg } = made.exempt[0].reason else {
+        panic!("{:?}", made.exempt);
+    };
+    assert!((angle_deg - 22.97).abs() < 0.1);
+}
+
+#[test]
+fn a_tenth_of_a_degree_does_not_cascade() {
+    for angle in [0.1_f64, 0.5, 2.0, 5.0] {
+        let (s, c) = angle.to_radians().sin_cos();
+        let pslg = chain(&[(1.0, 0.0), (0.0, 0.0), (c, s)], false);
+        let made = made(&pslg, &Options::new());
+        assert_eq!(support::check(&pslg, &made), Ok(()));
+        assert!(made.certificate.triangles < 6000, "{angle}: {}", made.certificate.triangles);
+        assert!(made.failed.iter().all(|f| matches!(f.reason, Reason::NearSector { point: 1, .. })));
+        // Nothing outside of the sector suffers by more than a few degrees.
+        let spoilt = made.failed.iter().filter(|f| f.at.y < -1e-3 && f.angles_deg[0] < 25.0).count();
+        assert_eq!(spoilt, 0, "{angle}: {:?}", made.failed);
+    }
+}
+
+#[test]
+fn what_coordinates_cannot_resolve_is_an_error() {
+    let pslg = chain(&[(0.0, 0.0), (1.0, 0.0), (1.0 - 1e-13, 1e-13), (0.0, 1.0)], true);
+    let refused = mesh(&validate(&pslg).unwrap(), &Options::new(), &Unwatched);
+    assert!(matches!(refused, Err(PslgError::TooClose { .. })), "{refused:?}");
+    let open = chain(&[(0.0, 0.0), (1.0, 0.0), (0.5, 1.0)], false);
+    let refused = mesh(&validate(&open).unwrap(), &Options::new().extent(Extent::Inside), &Unwatched);
+    assert_eq!(refused.err(), Some(PslgError::NothingEnclosed));
+    let refused = mesh(&validate(&open).unwrap(), &Options::new().max_triangles(100), &Unwatched);
+    assert!(matches!(refused, Err(PslgError::TooMany { .. })));
+}
