@@ -1,0 +1,105 @@
+//! Experiments.
+#![allow(missing_docs)]
+use crate::angles::Limits;
+use crate::decimate::{Pass, decimate};
+use crate::mesh::{Mesh, Motion};
+use crate::refill::Refills;
+use crate::work::Work;
+use crate::{VertexKind};
+use hexdel_geom::{AngleBounds, TriMesh};
+use std::time::Instant;
+
+pub fn run(mesh: &TriMesh, kinds: &[VertexKind], bounds: AngleBounds, n: usize) {
+    let limits = Limits::new(bounds);
+    let refills = Refills::new();
+    let tris: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|v| v.index() as u32)).collect();
+    let motion: Vec<Motion> = kinds
+        .iter()
+        .map(|k| match k {
+            VertexKind::Fixed => Motion::Fixed,
+            VertexKind::Sliding(d) => Motion::Along(*d),
+            VertexKind::Free => Motion::Free,
+        })
+        .collect();
+    let sector: Vec<f64> = motion.iter().map(|m| if matches!(m, Motion::Along(_)) { std::f64::consts::PI } else { std::f64::consts::TAU }).collect();
+    let mut m = Mesh::build(mesh.vertices.clone(), motion, sector, &tris, &[]).expect("manifold");
+    // corners of the domain
+    for v in 0..m.pos.len() as u32 {
+        let mut tr = vec![]; let mut rg = vec![];
+        let closed = m.ring(v, &mut tr, &mut rg);
+        if !closed && m.is_fixed(v) { m.sector[v as usize] = 2.0 * std::f64::consts::PI / 3.0; }
+    }
+    m.validate().expect("valid");
+    let nv = m.pos.len();
+    let mut w = Work::new(m, &limits, &refills, vec![0; nv], 1);
+    let t0 = Instant::now();
+    let report = |w: &Work, what: &str, t0: Instant| {
+        println!(
+            "{what:<22} tri/pt {:7.3} bad {:5} ms/pt {:.4} repairs {:?} removals {:?} steps {} ",
+            w.mesh.live().count() as f64 / n as f64, w.bad().len(), t0.elapsed().as_secs_f64() * 1e3 / n as f64, w.stats.repairs, w.stats.removals, w.solver.steps
+        );
+    };
+    report(&w, "start", t0);
+    if std::env::var("TRACE").is_ok() {
+        for &t in w.bad().iter().step_by(397) {
+            let c = w.mesh.tri[t as usize].v;
+            w.load(&c);
+            println!("tri {t} {:?}", c.map(|v| (w.mesh.is_fixed(v), w.mesh.degree(v))));
+            for r in 0..4 {
+                if r > 0 { w.grow(); }
+                let mut out = vec![];
+                for _ in 0..12 { let s = w.solver.run(&limits, 1); out.push(format!("{:.1e}{}", s.energy, if s.solved {"!"} else {""})); if s.solved { break } }
+                println!("  r{r} mov {} tris {}: {}", w.solver.movable().len(), w.solver.ids.len(), out.join(" "));
+            }
+        }
+        return;
+    }
+    if std::env::var("EXP").is_ok() {
+        let tight = |d: f64| Limits::with_slack(bounds, d);
+        let variants: Vec<(&str, Vec<(f64, usize)>)> = vec![
+            ("plain 8", vec![(0.05, 8)]), ("plain 30", vec![(0.05, 30)]), ("plain 100", vec![(0.05, 100)]),
+            ("0.5 then", vec![(0.5, 8), (0.05, 8)]), ("2 then", vec![(2.0, 6), (0.05, 8)]), ("5 then", vec![(5.0, 4), (0.05, 8)]),
+            ("5,2,.5 then", vec![(5.0, 4), (2.0,4), (0.5,4), (0.05, 8)]),
+            ("12 then", vec![(12.0, 3), (0.05, 8)]), ("0.5 only", vec![(0.5, 16)]), ("0.01", vec![(0.01, 16)]), 
+        ];
+        for (name, seq) in variants {
+            for r in 1..4usize {
+                let t0 = Instant::now();
+                let bad = w.bad();
+                let (mut ok, mut n, mut e) = (0, 0, 0.0);
+                for &t in bad.iter().step_by(3) {
+                    let c = w.mesh.tri[t as usize].v;
+                    w.load(&c);
+                    for _ in 0..r { w.grow(); }
+                    n += 1;
+                    let mut s = w.solver.state(&limits);
+                    for &(d, k) in &seq { s = w.solver.run(&tight(d), k); if s.solved { break; } }
+                    if s.solved { ok += 1 }
+                    e += s.energy;
+                }
+                println!("{name:<14} r{r} ok {ok}/{n} meanE {:.4} us {:.1}", e / n as f64, t0.elapsed().as_secs_f64()*1e6 / n as f64);
+            }
+        }
+        return;
+    }
+    let env = |k: &str, d: f64| std::env::var(k).map_or(d, |s| s.parse().unwrap());
+    let gs = Limits::with_slack(bounds, env("GSM", 0.5));
+    for i in 0..env("GS", 30.) as usize {
+        crate::repair::relax(&mut w, &gs);
+        if i % 5 == 4 { report(&w, "relax", t0); }
+    }
+    for s in 0..env("REP", 8.) as usize {
+        let bad = crate::repair::sweep(&mut w, if s < 2 { 2 } else { 3 }, 8);
+        report(&w, "repair", t0);
+        if bad == 0 { break; }
+    }
+    let pass = Pass { rings: 1, refills: 1, max_cost: 10.0, steps: 6, turns: 3, give_up: 1.0 };
+    for (rings, steps, turns, refills) in [(1, 6, 3, 1), (1, 6, 3, 1), (2, 6, 3, 1), (2, 6, 3, 2), (2, 6, 4, 2), (3, 6, 4, 2), (3, 6, 4, 3)] {
+        let p = Pass { rings, steps, turns, refills, ..pass };
+        let before = w.stats;
+        let k = decimate(&mut w, p);
+        report(&w, &format!("r{rings} s{steps} t{turns} k{refills}: {k}"), t0);
+        let _ = before;
+    }
+    w.mesh.validate().expect("valid");
+}
