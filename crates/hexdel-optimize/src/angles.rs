@@ -56,6 +56,7 @@ pub(crate) struct Limits {
     /// Whether a mesh inside the bounds may be other than Delaunay: two
     /// angles opposite an edge can exceed a half-turn.
     pub(crate) check_delaunay: bool,
+    pub(crate) shape_weight: f64,
 }
 
 fn sin_cos(angle: f64) -> SinCos {
@@ -88,6 +89,7 @@ impl Limits {
             upper: sin_cos(hi - slack),
             min_rad: lo,
             max_rad: hi,
+            shape_weight: std::env::var("SHW").map_or(0.1, |s| s.parse().unwrap()),
             check_delaunay: bounds.max_deg() > 90.0,
         }
     }
@@ -130,6 +132,36 @@ impl Limits {
             return angle(high, self.upper.cos * dot + self.upper.sin * cross);
         }
         0.0
+    }
+
+    /// The corner farthest below the target and the one farthest above, each
+    /// with the sine of its distance times its sides' lengths, negative.
+    #[inline]
+    pub(crate) fn outside(&self, m: &Measure) -> (Option<(usize, f64)>, Option<(usize, f64)>) {
+        let (mut max, mut min) = (0, 0);
+        for k in 1..3 {
+            if m.dot[k] > m.dot[max] {
+                max = k;
+            }
+            if m.dot[k] < m.dot[min] {
+                min = k;
+            }
+        }
+        let low = self.lower.cos * m.cross - self.lower.sin * m.dot[max];
+        let high = self.upper.sin * m.dot[min] - self.upper.cos * m.cross;
+        ((low < 0.0).then_some((max, low)), (high < 0.0 && m.cross > 0.0).then_some((min, high)))
+    }
+
+    /// Factors of cross and dot product in the lower test.
+    #[inline]
+    pub(crate) fn lower_turn(&self) -> DVec2 {
+        DVec2::new(self.lower.cos, -self.lower.sin)
+    }
+
+    /// Factors of cross and dot product in the upper test.
+    #[inline]
+    pub(crate) fn upper_turn(&self) -> DVec2 {
+        DVec2::new(-self.upper.cos, self.upper.sin)
     }
 
     /// Sum of the squared residuals of a triangle, square radians.

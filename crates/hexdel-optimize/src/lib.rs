@@ -1,6 +1,7 @@
 //! Local optimisation of triangle meshes to hard angle bounds.
 
 mod angles;
+mod change;
 mod decimate;
 mod flip;
 mod mesh;
@@ -8,6 +9,7 @@ mod options;
 mod random;
 mod refill;
 mod repair;
+mod shake;
 mod skyline;
 mod solve;
 mod work;

@@ -61,6 +61,8 @@ pub(crate) struct Solver {
     along: Vec<DVec2>,
     /// Shortest edge of each movable vertex.
     unit: Vec<f64>,
+    /// Square of `unit` for movable vertices, zero for the others.
+    weight: Vec<f64>,
     active: Vec<Active>,
     active_trial: Vec<Active>,
     first: Vec<u32>,
@@ -134,6 +136,7 @@ impl Solver {
             self.slot[v as usize] = self.verts.len() as u32;
             self.verts.push(v);
             self.pos.push(mesh.pos[v as usize]);
+            self.along.push(DVec2::ZERO);
         }
         self.slot[v as usize]
     }
@@ -153,6 +156,9 @@ impl Solver {
             // Coincident vertices still need a positive unit to part.
             *u = u.sqrt().max(f64::MIN_POSITIVE.sqrt());
         }
+        self.weight.clear();
+        let n = self.movable;
+        self.weight.extend(self.unit.iter().enumerate().map(|(i, u)| if i < n { u * u } else { 0.0 }));
     }
 
     /// The patch as it stands.
@@ -171,6 +177,70 @@ impl Solver {
             state = next;
         }
         state
+    }
+
+    /// Projects the corners outside the target onto it, one after the other, for
+    /// at most `sweeps` sweeps over the patch; returns the energy met in the
+    /// last sweep, zero when nothing was outside.
+    pub(crate) fn project(&mut self, limits: &Limits, sweeps: usize, over: f64, stop: f64) -> (f64, usize) {
+        let mut energy = 0.0;
+        let mut mark = f64::INFINITY;
+        for sweep in 0..sweeps {
+            energy = 0.0;
+            for i in 0..self.tris.len() {
+                let t = self.tris[i].map(|v| v as usize);
+                let [a, b, c] = t.map(|v| self.pos[v]);
+                let m = Measure::of(a, b, c);
+                let (low, high) = limits.outside(&m);
+                if let Some((k, g)) = low {
+                    energy += self.push(t, k, g, limits.lower_turn(), over);
+                }
+                if let Some((k, g)) = high {
+                    energy += self.push(t, k, g, limits.upper_turn(), over);
+                }
+            }
+            if energy == 0.0 {
+                return (0.0, sweep);
+            }
+            if sweep % 4 == 3 {
+                if energy > stop * mark {
+                    return (energy, sweep);
+                }
+                mark = energy;
+            }
+        }
+        (energy, sweeps)
+    }
+
+    /// Moves the corners of `t` so that `g = cross * turn.x + dot * turn.y`,
+    /// given at corner `k` and negative, vanishes to first order.
+    #[inline]
+    fn push(&mut self, t: [usize; 3], k: usize, g: f64, turn: DVec2, over: f64) -> f64 {
+        let v = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
+        let [a, b, c] = v.map(|v| self.pos[v]);
+        let (u, w) = (b - a, c - a);
+        let at_c = turn.x * u.perp() + turn.y * u;
+        let at_b = turn.y * w - turn.x * w.perp();
+        let mut d = [-(at_b + at_c), at_b, at_c];
+        let mut norm = 0.0;
+        for i in 0..3 {
+            let weight = self.weight[v[i]];
+            let along = self.along[v[i]];
+            if along != DVec2::ZERO {
+                d[i] = along * along.dot(d[i]);
+            }
+            norm += weight * d[i].length_squared();
+            d[i] *= weight;
+        }
+        if norm <= 0.0 {
+            return f64::INFINITY;
+        }
+        let cap = 0.15 * (u.length_squared() + w.length_squared());
+        let step = over * (-g).min(cap) / norm;
+        for i in 0..3 {
+            self.pos[v[i]] += d[i] * step;
+        }
+        g * g / norm
     }
 
     /// One step from the active corners of `state`; none where every length of

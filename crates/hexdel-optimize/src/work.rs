@@ -18,6 +18,7 @@ pub(crate) struct Work<'a> {
     /// As in `Soup::failed`; as long as the mesh's vertices.
     pub(crate) failed: Vec<u8>,
     pub(crate) stats: Stats,
+    pub(crate) hist: [[u32; 2]; 40],
     pub(crate) scratch: Scratch,
 }
 
@@ -42,6 +43,7 @@ impl<'a> Work<'a> {
             random: Random::new(seed),
             failed,
             stats: Stats::default(),
+            hist: [[0; 2]; 40],
             scratch: Scratch::default(),
         }
     }
@@ -94,6 +96,30 @@ impl<'a> Work<'a> {
             }
             before = state.energy;
         }
+        state
+    }
+
+    /// Projects the loaded patch, flips, projects again; falls back on steps when near.
+    pub(crate) fn quick(&mut self, aim: &Limits, sweeps: usize, over: f64, stop: f64, turns: usize, near: f64, steps: usize) -> State {
+        let mut state = State { energy: f64::INFINITY, solved: false };
+        for turn in 0..turns {
+            if turn > 0 {
+                self.solver.store(&mut self.mesh);
+                if flip_patch(&mut self.mesh, &self.solver) == 0 {
+                    break;
+                }
+                self.reload();
+            }
+            self.solver.project(aim, sweeps, over, stop);
+            state = self.solver.state(self.limits);
+            if state.solved {
+                break;
+            }
+        }
+        if !state.solved && state.energy < near && steps > 0 {
+            state = self.solver.run(aim, steps);
+        }
+        self.solver.store(&mut self.mesh);
         state
     }
 

@@ -35,6 +35,8 @@ pub enum Rule {
     Apart(f64),
     /// No occupied leaf has a neighbour of another level, or an occupied one.
     B,
+    /// As B, but occupied neighbours only within this share of the spacing.
+    E(f64),
 }
 
 /// A start mesh with the kinds of its vertices; the sites come first.
@@ -131,7 +133,7 @@ impl Grid {
         }
     }
 
-    fn place(&mut self, points: &[DVec2], rule: Rule) -> BTreeMap<Cell, usize> {
+    fn place(&mut self, points: &[DVec2], rule: Rule, strict: &[bool]) -> BTreeMap<Cell, usize> {
         loop {
             let mut changed = false;
             let mut occupied = BTreeMap::new();
@@ -167,14 +169,19 @@ impl Grid {
                     continue;
                 }
             }
-            if rule == Rule::B {
+            if matches!(rule, Rule::B | Rule::E(_)) || !strict.is_empty() {
+                let on = |i: usize| strict.is_empty() || strict[i];
                 let near: Vec<Cell> = occupied
-                    .keys()
-                    .filter(|(k, h)| self.fins(*k, *h) != 0 || DIRS.iter().any(|&d| occupied.contains_key(&(*k, add(*h, d)))))
+                    .iter()
+                    .filter(|(_, i)| on(**i))
+                    .map(|(c, _)| c)
+                    .filter(|(k, h)| self.fins(*k, *h) != 0 || !matches!(rule, Rule::E(_)) && DIRS.iter().any(|&d| occupied.contains_key(&(*k, add(*h, d)))))
                     .copied()
                     .collect();
                 let coarse: Vec<Cell> = occupied
-                    .keys()
+                    .iter()
+                    .filter(|(_, i)| on(**i))
+                    .map(|(c, _)| c)
                     .filter(|(k, _)| *k > 0)
                     .flat_map(|&(k, h)| DIRS.map(|d| (k, add(h, d))))
                     .filter(|&(k, h)| !self.exists(k, h))
@@ -187,7 +194,7 @@ impl Grid {
                     continue;
                 }
             }
-            if let Rule::Apart(share) = rule {
+            if let Rule::Apart(share) | Rule::E(share) = rule {
                 let near = self.too_close(points, &occupied, share);
                 for (k, h) in &near {
                     self.subdivide(*k, *h);
@@ -519,10 +526,15 @@ fn cross(a: Hex, b: Hex, c: Hex) -> bool {
 
 /// The start mesh of `points` under `rule`; the sites are the first vertices.
 pub fn start(points: &[DVec2], rule: Rule) -> Start {
+    start_where(points, rule, &[])
+}
+
+/// As `start`, with rule B at the sites that `strict` marks.
+pub fn start_where(points: &[DVec2], rule: Rule, strict: &[bool]) -> Start {
     let (lo, hi) = points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
     let half = 0.5 * (hi - lo).length().max(1e-3);
     let mut grid = Grid { split: Vec::new(), radius: 12, spacing: 2.2 * half, origin: 0.5 * (lo + hi) };
-    let occupied = grid.place(points, rule);
+    let occupied = grid.place(points, rule, strict);
     let reach = grid.split.first().map_or(0, |s| {
         s.iter().map(|h| h.0.abs().max(h.1.abs()).max((h.0 + h.1).abs())).max().unwrap_or(0)
     });
