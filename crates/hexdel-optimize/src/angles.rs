@@ -56,7 +56,6 @@ pub(crate) struct Limits {
     /// Whether a mesh inside the bounds may be other than Delaunay: two
     /// angles opposite an edge can exceed a half-turn.
     pub(crate) check_delaunay: bool,
-    pub(crate) shape_weight: f64,
 }
 
 fn sin_cos(angle: f64) -> SinCos {
@@ -65,31 +64,32 @@ fn sin_cos(angle: f64) -> SinCos {
 }
 
 fn cot(angle: f64) -> f64 {
-    let a = sin_cos(angle);
-    if angle <= 0.0 { f64::INFINITY } else { a.cos / a.sin }
+    if angle <= 0.0 {
+        f64::INFINITY
+    } else if angle >= std::f64::consts::PI {
+        f64::NEG_INFINITY
+    } else {
+        let a = sin_cos(angle);
+        a.cos / a.sin
+    }
 }
 
 impl Limits {
     pub(crate) fn new(bounds: AngleBounds) -> Self {
-        Self::with_slack(bounds, SLACK_DEG)
-    }
-
-    pub(crate) fn with_slack(bounds: AngleBounds, slack_deg: f64) -> Self {
         let (lo, hi) = (bounds.min_deg().to_radians(), bounds.max_deg().to_radians());
         let inset = |deg: f64| {
             let d = deg.to_radians();
             Cot { min: cot(lo + d), max: cot(hi - d) }
         };
-        let slack = slack_deg.to_radians();
+        let slack = SLACK_DEG.to_radians();
         Self {
             strict: inset(STRICT_DEG),
             loose: inset(-LOOSE_DEG),
-            target: inset(slack_deg),
+            target: inset(SLACK_DEG),
             lower: sin_cos(lo + slack),
             upper: sin_cos(hi - slack),
             min_rad: lo,
             max_rad: hi,
-            shape_weight: std::env::var("SHW").map_or(0.1, |s| s.parse().unwrap()),
             check_delaunay: bounds.max_deg() > 90.0,
         }
     }

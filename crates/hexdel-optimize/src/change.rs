@@ -21,6 +21,25 @@ pub(crate) enum Action {
     Flip { triangle: u32, corner: usize },
 }
 
+impl Action {
+    /// The vertices around which the change happens.
+    pub(crate) fn region(self, mesh: &Mesh, verts: &mut Vec<u32>) {
+        verts.clear();
+        match self {
+            Self::Remove { vertex, .. } => {
+                mesh.ring(vertex, &mut Vec::new(), verts);
+                verts.push(vertex);
+            }
+            Self::Flip { triangle, corner } => {
+                if let Some((_, d)) = mesh.diamond(triangle, corner) {
+                    verts.extend(d);
+                }
+            }
+            Self::Insert { disc, len, .. } => verts.extend(outline(mesh, &disc[..len]).unwrap_or_default()),
+        }
+    }
+}
+
 /// A change and its rank; less is better.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Change {
@@ -40,15 +59,16 @@ pub(crate) struct Finder<'a> {
 }
 
 impl Finder<'_> {
+    /// All changes near `t`, best first.
     pub(crate) fn find(&mut self, t: u32) {
         self.out.clear();
         let tri = self.mesh.tri[t as usize];
         let mut near = tri.v.to_vec();
         for k in 0..3 {
-            if let Some((_, d)) = self.mesh.diamond(t, k) {
-                if !near.contains(&d[3]) {
-                    near.push(d[3]);
-                }
+            if let Some((_, d)) = self.mesh.diamond(t, k)
+                && !near.contains(&d[3])
+            {
+                near.push(d[3]);
             }
         }
         for v in near {
@@ -57,20 +77,36 @@ impl Finder<'_> {
         for k in 0..3 {
             self.flips(t, k);
             let n = tri.n[k];
-            if n != NONE {
-                for j in 0..3 {
-                    if self.mesh.tri[n as usize].n[j] != t {
-                        self.flips(n, j);
-                    }
+            for j in (0..3).filter(|_| n != NONE) {
+                if self.mesh.tri[n as usize].n[j] != t {
+                    self.flips(n, j);
                 }
-                self.insertions(&[t, n]);
             }
         }
-        let all: Vec<u32> = std::iter::once(t).chain(tri.n.into_iter().filter(|n| *n != NONE)).collect();
-        if all.len() == 4 {
-            self.insertion(&all);
-        }
+        self.all_insertions(t);
+        self.sort();
+    }
+
+    /// The insertions near `t`, best first.
+    pub(crate) fn find_insertions(&mut self, t: u32) {
+        self.out.clear();
+        self.all_insertions(t);
+        self.sort();
+    }
+
+    fn sort(&mut self) {
+        // Stable: equal costs keep the order in which they were found.
         self.out.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    }
+
+    fn all_insertions(&mut self, t: u32) {
+        let beyond = self.mesh.tri[t as usize].n;
+        for n in beyond.into_iter().filter(|n| *n != NONE) {
+            self.insertions(&[t, n]);
+        }
+        if !beyond.contains(&NONE) {
+            self.insertion(&[t, beyond[0], beyond[1], beyond[2]]);
+        }
     }
 
     fn cost_at(&self, v: u32, degree: usize) -> f64 {

@@ -1,8 +1,13 @@
 //! Removal of vertices, one at a time, each kept only where every angle holds.
+//!
+//! Small neighbourhoods go first: what is finest is what is most likely in
+//! excess. Within that order the cost of the cheapest refill says whether an
+//! attempt is worth its time, and passes raise the cost they accept.
 
 use crate::mesh::Motion;
+use crate::patch::Sweeps;
 use crate::refill::MAX_CORNERS;
-use crate::work::Work;
+use crate::work::{Effort, Work};
 
 /// How hard one pass tries.
 #[derive(Clone, Copy, Debug)]
@@ -13,61 +18,70 @@ pub(crate) struct Pass {
     pub(crate) refills: usize,
     /// Refills that cost more are not tried.
     pub(crate) max_cost: f64,
-    pub(crate) steps: usize,
-    pub(crate) turns: usize,
-    pub(crate) give_up: f64,
-    pub(crate) aim: crate::angles::Limits,
-    pub(crate) sweeps: usize,
-    pub(crate) over: f64,
-    pub(crate) stop: f64,
+    /// Energy below which Newton steps finish a patch, square radians.
     pub(crate) near: f64,
-    pub(crate) pbd: bool,
-    pub(crate) by_cost: bool,
-    pub(crate) skip: bool,
-    pub(crate) wide: usize,
-    pub(crate) wide_cost: f64,
-    pub(crate) key: u8,
 }
 
-/// Tries every vertex once.
+/// Energy after the first ring has moved above which more rings do not help,
+/// square radians; measured.
+const HOPELESS: f64 = 1.0;
+
+const REMOVAL: Effort = Effort { sweeps: Sweeps { most: 30, stall: 0.6 }, turns: 3, near: 0.0, steps: 6 };
+
+/// The passes, each given a new partition of the mesh: cheap and likely
+/// removals first. With the costs of `refill`, four of five attempts at 0.4
+/// succeed while the mesh is fine; on a coarse one, one of ten.
+pub(crate) const PASSES: [Pass; 14] = [
+    Pass { rings: 2, refills: 1, max_cost: 0.4, near: 0.0 },
+    Pass { rings: 2, refills: 1, max_cost: 0.4, near: 0.0 },
+    Pass { rings: 2, refills: 1, max_cost: 0.5, near: 0.0 },
+    Pass { rings: 2, refills: 1, max_cost: 0.5, near: 0.0 },
+    Pass { rings: 2, refills: 1, max_cost: 0.5, near: 0.0 },
+    Pass { rings: 2, refills: 1, max_cost: 0.6, near: 0.01 },
+    Pass { rings: 3, refills: 1, max_cost: 0.5, near: 0.01 },
+    Pass { rings: 3, refills: 1, max_cost: 0.5, near: 0.01 },
+    Pass { rings: 3, refills: 2, max_cost: 0.6, near: 0.01 },
+    Pass { rings: 4, refills: 1, max_cost: 0.5, near: 0.01 },
+    Pass { rings: 4, refills: 1, max_cost: 0.5, near: 0.01 },
+    Pass { rings: 4, refills: 2, max_cost: 0.6, near: 0.01 },
+    Pass { rings: 4, refills: 2, max_cost: 0.6, near: 0.01 },
+    Pass { rings: 4, refills: 2, max_cost: 0.6, near: 0.01 },
+];
+
+/// Tries every vertex once; returns how many were removed.
 pub(crate) fn decimate(work: &mut Work, pass: Pass) -> usize {
-    let mut order: Vec<(f64, u32)> = Vec::new();
-    for v in 0..work.mesh.pos.len() as u32 {
-        if work.mesh.alive(v) && !work.mesh.is_fixed(v) && work.failed[v as usize] < pass.rings {
-            let key = if pass.by_cost { cost(work, v) } else {
-                match pass.key {
-                    0 => work.mesh.shortest_edge(v),
-                    1 => { let mut m = 0.0f64; let p = work.mesh.pos[v as usize]; work.mesh.around(v, |t, k| { let c = work.mesh.tri[t as usize].v; m = m.max((work.mesh.pos[c[(k+1)%3] as usize] - p).length()); }); m }
-                    2 => { let mut m = 0.0f64; work.mesh.around(v, |t, _| m += work.mesh.measure(t).cross); m }
-                    _ => { let mut m = 0.0f64; work.mesh.around(v, |t, _| m += work.mesh.measure(t).cross); m / (work.mesh.degree(v) as f64).powi(2) }
-                }
-            };
-            if !pass.by_cost || key <= pass.max_cost { order.push((key, v)); }
-        }
-    }
+    let mut order: Vec<(f64, u32)> = (0..work.mesh.pos.len() as u32)
+        .filter(|&v| work.mesh.alive(v) && !work.mesh.is_fixed(v) && work.failed[v as usize] < pass.rings)
+        .map(|v| (work.mesh.shortest_edge(v), v))
+        .collect();
     order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut removed = 0;
     for (_, v) in order {
-        if work.mesh.alive(v) && work.failed[v as usize] < pass.rings {
-            let c0 = work.stats.removals[0];
-            if remove(work, v, pass) {
-                removed += 1;
-            } else if work.stats.removals[0] > c0 {
-                work.failed[v as usize] = pass.rings;
-            }
-        }
+        removed += usize::from(work.mesh.alive(v) && try_remove(work, v, pass));
     }
     removed
 }
 
+/// Removes `v` unless it is known that this fails.
+pub(crate) fn try_remove(work: &mut Work, v: u32, pass: Pass) -> bool {
+    if work.failed[v as usize] >= pass.rings {
+        return false;
+    }
+    let before = work.stats.removals[0];
+    let done = remove(work, v, pass);
+    if !done && work.stats.removals[0] > before {
+        work.failed[v as usize] = pass.rings;
+    }
+    done
+}
+
 /// Removes `v` if a refill of its hole can be brought inside the bounds.
-pub(crate) fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
+fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
     let mut s = std::mem::take(&mut work.scratch);
     let closed = work.mesh.ring(v, &mut s.tris, &mut s.ring);
-    let corners = s.ring.len();
-    let sliding = matches!(work.mesh.motion[v as usize], Motion::Along(_));
+    let slides = matches!(work.mesh.motion[v as usize], Motion::Along(_));
     let mut done = false;
-    if corners <= MAX_CORNERS && corners >= 3 && closed != sliding {
+    if (3..=MAX_CORNERS).contains(&s.ring.len()) && closed != slides {
         work.refills.choose(&work.mesh, work.limits, &s.ring, closed, pass.refills, &mut s.chosen);
         for &(cost, index) in &s.chosen {
             if cost > pass.max_cost || !work.refills.triangles(&work.mesh, &s.ring, closed, index, &mut s.new) {
@@ -76,46 +90,10 @@ pub(crate) fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
             s.made.clear();
             work.mesh.replace(&s.tris, &s.new, &mut s.made);
             work.stats.removals[0] += 1;
-            let bin = ((cost * 20.0) as usize).min(39) ;
-            work.hist[bin][0] += 1;
-            if settle(work, &s.ring, pass) {
-                work.hist[bin][1] += 1;
+            done = settle(work, &s.ring, pass);
+            if done {
                 work.stats.removals[1] += 1;
                 work.commit();
-                done = true;
-                break;
-            }
-            work.mesh.rollback();
-        }
-    }
-    if !done && pass.wide > 0 && closed && corners <= MAX_CORNERS && corners >= 3 && !sliding {
-        let mut list = Vec::new();
-        work.refills.choose_wide(&work.mesh, work.limits, &s.tris, v, &s.ring, pass.wide_cost, &mut list);
-        let base = s.chosen.first().map_or(f64::INFINITY, |c| c.0);
-        let ring = s.ring.clone();
-        let tris = s.tris.clone();
-        for &(cost, side, index) in list.iter().take(pass.wide) {
-            if cost > base { break; }
-            let n = ring.len();
-            let tri = work.mesh.tri[tris[side] as usize];
-            let beyond = tri.n[tri.corner(v)];
-            let (a, b) = (ring[side], ring[(side + 1) % n]);
-            let Some(x) = work.mesh.tri[beyond as usize].v.into_iter().find(|w| *w != a && *w != b) else { continue };
-            let mut r = ring.clone();
-            r.insert(side + 1, x);
-            if !work.refills.triangles(&work.mesh, &r, true, index, &mut s.new) { continue; }
-            let mut old = tris.clone();
-            old.push(beyond);
-            s.made.clear();
-            work.mesh.replace(&old, &s.new, &mut s.made);
-            work.stats.removals[0] += 1;
-            let bin = ((cost * 20.0) as usize).min(39) ;
-            work.hist[bin][0] += 1;
-            if settle(work, &r, pass) {
-                work.hist[bin][1] += 1;
-                work.stats.removals[1] += 1;
-                work.commit();
-                done = true;
                 break;
             }
             work.mesh.rollback();
@@ -125,59 +103,20 @@ pub(crate) fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
     done
 }
 
-/// Moves ever more rings around `verts` until everything holds.
+/// Moves ever more rings around `verts` until everything changed holds.
 pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
     work.load(verts);
-    if pass.skip {
-        work.grow();
-    }
-    for ring in (if pass.skip { 2 } else { 1 })..=pass.rings {
-        if ring > 1 + u8::from(pass.skip) {
+    for ring in 1..=pass.rings {
+        if ring > 1 {
             work.grow();
         }
-        let state = if pass.pbd { work.quick(&pass.aim, pass.sweeps, pass.over, pass.stop, pass.turns, pass.near, pass.steps) } else { work.solve(pass.turns, pass.steps) };
+        let state = work.solve(Effort { near: pass.near, ..REMOVAL });
         if state.solved {
             return work.changes_hold();
         }
-        if state.energy > pass.give_up {
+        if state.energy > HOPELESS {
             return false;
         }
     }
     false
-}
-
-/// Cost of the cheapest refill.
-fn cost(work: &mut Work, v: u32) -> f64 {
-    let mut s = std::mem::take(&mut work.scratch);
-    let closed = work.mesh.ring(v, &mut s.tris, &mut s.ring);
-    let corners = s.ring.len();
-    let sliding = matches!(work.mesh.motion[v as usize], Motion::Along(_));
-    let mut c = f64::INFINITY;
-    if corners <= MAX_CORNERS && corners >= 3 && closed != sliding {
-        work.refills.choose(&work.mesh, work.limits, &s.ring, closed, 1, &mut s.chosen);
-        if let Some(x) = s.chosen.first() { c = x.0; }
-    }
-    work.scratch = s;
-    c
-}
-
-/// Moves every vertex away from the bounds where that keeps them.
-pub(crate) fn spread(work: &mut Work, aim: &crate::angles::Limits, rounds: usize) -> usize {
-    let mut moved = 0;
-    for _ in 0..rounds {
-        for v in 0..work.mesh.pos.len() as u32 {
-            if !work.mesh.alive(v) || work.mesh.is_fixed(v) { continue; }
-            work.load(&[v]);
-            let before = work.solver.state(aim).energy;
-            if before == 0.0 { continue; }
-            work.solver.project(aim, 2, 1.0, 2.0); let state = work.solver.state(aim);
-            if state.energy < before && work.solver.state(work.limits).solved {
-                work.solver.store(&mut work.mesh);
-                work.mesh.commit();
-                work.failed[v as usize] = 0;
-                moved += 1;
-            }
-        }
-    }
-    moved
 }

@@ -5,7 +5,7 @@
 //! flipped away wherever that leaves two upright ones.
 
 use crate::mesh::Mesh;
-use crate::solve::Solver;
+use crate::patch::Patch;
 
 /// The sine of the sum of the angles opposite an edge, relative to the
 /// product of their sides' lengths, below which the edge is flipped: well
@@ -14,15 +14,15 @@ const FLIP_BELOW: f64 = -1e-9;
 
 /// Flips edges between triangles of the loaded patch until none wants it;
 /// returns the number of flips.
-pub(crate) fn flip_patch(mesh: &mut Mesh, solver: &Solver) -> usize {
+pub(crate) fn flip_patch(mesh: &mut Mesh, patch: &Patch) -> usize {
     let mut flips = 0;
     // Lawson's algorithm ends on upright triangles; on inverted ones it may
     // not, hence the limit.
     for _ in 0..8 {
         let before = flips;
-        for &t in &solver.ids {
+        for &t in patch.triangles() {
             for k in 0..3 {
-                flips += usize::from(try_flip(mesh, solver, t, k));
+                flips += usize::from(try_flip(mesh, patch, t, k));
             }
         }
         if flips == before {
@@ -32,9 +32,9 @@ pub(crate) fn flip_patch(mesh: &mut Mesh, solver: &Solver) -> usize {
     flips
 }
 
-fn try_flip(mesh: &mut Mesh, solver: &Solver, t: u32, k: usize) -> bool {
+fn try_flip(mesh: &mut Mesh, patch: &Patch, t: u32, k: usize) -> bool {
     let Some((u, d)) = mesh.diamond(t, k) else { return false };
-    solver.holds(u) && wants_flip(mesh, d) && mesh.flip(t, k)
+    patch.holds(u) && wants_flip(mesh, d) && mesh.flip(t, k)
 }
 
 /// Whether the edge `from to` of the diamond should be the other diagonal.

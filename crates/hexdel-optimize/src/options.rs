@@ -76,6 +76,31 @@ pub struct Options<'a> {
     pub hook: Option<Hook<'a>>,
 }
 
+impl<'a> Options<'a> {
+    /// Options without budget and hook.
+    pub fn new(bounds: AngleBounds, effort: Effort) -> Self {
+        Self { bounds, effort, ..Self::default() }
+    }
+
+    /// The same with a wall-clock limit.
+    #[must_use]
+    pub fn with_budget(self, budget: Duration) -> Self {
+        Self { budget: Some(budget), ..self }
+    }
+
+    /// The same with another seed.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// The same with a hook.
+    #[must_use]
+    pub fn with_hook(self, hook: Hook<'a>) -> Self {
+        Self { hook: Some(hook), ..self }
+    }
+}
+
 impl std::fmt::Debug for Options<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Options")

@@ -13,7 +13,7 @@ use crate::angles::Measure;
 /// Holes with more corners are left alone: in bounds above 40 degrees a vertex
 /// has at most nine triangles, and removing one that has more than eight
 /// never helps its neighbours.
-pub(crate) const MAX_CORNERS: usize = 9;
+pub(crate) const MAX_CORNERS: usize = 8;
 
 /// Weight of the squared angles outside the bounds, now, against the cost of
 /// degrees; measured.
@@ -27,13 +27,6 @@ const IMPOSSIBLE: f64 = 1e3;
 pub(crate) struct Refills {
     /// Entry `n`: the triangulations of `n` corners, each `n - 2` triples.
     of: Vec<Vec<Vec<[u8; 3]>>>,
-}
-
-/// A refill that was chosen.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Chosen {
-    pub(crate) tris: Vec<[u32; 3]>,
-    pub(crate) cost: f64,
 }
 
 impl Refills {
@@ -65,7 +58,7 @@ impl Refills {
                 }
                 cost += shape[usize::from(t[0])][usize::from(t[1])][usize::from(t[2])];
             }
-            cost *= limits.shape_weight;
+            cost *= SHAPE_WEIGHT;
             for i in 0..n {
                 cost += degree_cost(limits, mesh.sector[ring[i] as usize], degree[i]);
             }
@@ -75,61 +68,6 @@ impl Refills {
         }
         out.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         out.truncate(keep);
-    }
-
-    /// As `choose`, for holes widened by the triangle beyond one side.
-    pub(crate) fn choose_wide(&self, mesh: &Mesh, limits: &Limits, tris: &[u32], v: u32, ring: &[u32], max: f64, out: &mut Vec<(f64, usize, usize)>) {
-        out.clear();
-        let n = ring.len();
-        if n + 1 > MAX_CORNERS { return; }
-        let mut shape = shapes(mesh, limits, ring);
-        let p = |i: usize| mesh.pos[ring[i] as usize];
-        for side in 0..n {
-            // the triangle beyond side (side, side + 1)
-            let t = tris[side];
-            let tri = mesh.tri[t as usize];
-            let beyond = tri.n[tri.corner(v)];
-            if beyond == crate::mesh::NONE { continue; }
-            let (a, b) = (ring[side], ring[(side + 1) % n]);
-            let Some(x) = mesh.tri[beyond as usize].v.into_iter().find(|w| *w != a && *w != b) else { continue };
-            if ring.contains(&x) { continue; }
-            for i in 0..n { for j in i + 1..n {
-                shape[i][j][n] = limits.energy(&Measure::of(p(i), p(j), mesh.pos[x as usize]));
-            } }
-            // polygon: 0..=side, x, side+1..n ; local ids
-            let local = |k: usize| if k <= side { k } else if k == side + 1 { n } else { k - 1 };
-            let mut base = [0usize; MAX_CORNERS];
-            for k in 0..n { base[k] = mesh.degree(ring[k]) - 2; }
-            base[side] -= 1; base[(side + 1) % n] -= 1;
-            base[n] = mesh.degree(x) - 1;
-            'tri: for (index, ts) in self.of[n + 1].iter().enumerate() {
-                let mut degree = base;
-                let mut cost = 0.0;
-                for t in ts {
-                    let c = t.map(|k| local(usize::from(k)));
-                    let (mut i, mut j, mut k) = (c[0], c[1], c[2]);
-                    // energies are stored for i < j < k with x last; orientation must stay counter-clockwise
-                    let (ci, cj, ck) = (i, j, k);
-                    let xs = c.contains(&n);
-                    for q in c { degree[q] += 1; }
-                    if xs {
-                        let (s, e) = (side, (side + 1) % n);
-                        if c.contains(&s) && c.contains(&e) { continue 'tri; }
-                        let _ = (ci, cj, ck);
-                        // rotate x to the end
-                        while k != n { (i, j, k) = (j, k, i); }
-                        cost += if i < j { shape[i][j][n] } else { limits.energy(&Measure::of(p(i), p(j), mesh.pos[x as usize])) };
-                    } else {
-                        cost += shape[i][j][k];
-                    }
-                }
-                cost *= limits.shape_weight;
-                for k in 0..n { cost += degree_cost(limits, mesh.sector[ring[k] as usize], degree[k]); if cost > max { continue 'tri; } }
-                cost += degree_cost(limits, mesh.sector[x as usize], degree[n]) - degree_cost(limits, mesh.sector[x as usize], mesh.degree(x));
-                if cost <= max { out.push((cost, side, index)); }
-            }
-        }
-        out.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     }
 
     /// The triangles of refill `index` of a ring, or none where one of its

@@ -1,148 +1,188 @@
-//! Brings all angles inside the bounds.
+//! Brings all angles inside the bounds: motion first, then changes of topology
+//! near what is left, then more vertices.
+//!
+//! A step that does not settle its patch is kept only where it lowers the
+//! energy by a tenth, so that a bad spot can be worked off in several steps
+//! but not wander.
 
-use crate::work::Work;
+use crate::change::{Action, Finder, apply};
+use crate::patch::{State, Sweeps};
+use crate::work::{Effort, Work};
 
-pub(crate) fn sweep(work: &mut Work, rings: usize, turns: usize) -> usize {
-    let bad = work.bad();
-    let mut touched = vec![false; work.mesh.pos.len()];
-    for t in bad {
-        if !work.mesh.tri[t as usize].alive() || work.is_good(t) {
-            continue;
-        }
-        let corners = work.mesh.tri[t as usize].v;
-        work.load(&corners);
-        let mut before = work.solver.state(work.limits);
-        let mut state = before;
-        for r in 0..rings {
-            if r > 0 {
-                work.mesh.rollback();
-                work.load(&corners);
-                for _ in 0..r {
-                    work.grow();
-                }
-                before = work.solver.state(work.limits);
-            }
-            state = work.solve(turns, 4);
-            work.stats.repairs[0] += 1;
-            if state.solved {
-                break;
-            }
-        }
-        if state.solved && work.changes_hold() || state.energy < 0.9 * before.energy {
-            work.stats.repairs[1] += u64::from(state.solved);
-            work.commit();
-        } else {
-            work.mesh.rollback();
-        }
-        let _ = &mut touched;
-    }
-    work.bad().len()
+/// What one round does to each bad triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Step {
+    /// Moves up to this many rings around the triangle.
+    Move { rings: usize },
+    /// Tries so many changes of topology and moves up to so many rings.
+    Search { changes: usize, rings: usize },
+    /// Splits its three sides.
+    Refine,
 }
 
-pub(crate) fn relax(work: &mut Work, limits: &crate::angles::Limits) -> usize {
-    let bad: Vec<u32> = work.mesh.live().filter(|&t| !limits.strict(&work.mesh.measure(t))).collect();
-    let mut mark = vec![false; work.mesh.pos.len()];
-    for &t in &bad { for v in work.mesh.tri[t as usize].v { mark[v as usize] = true; } }
-    let mut mark2 = mark.clone();
-    for t in work.mesh.live() { let c = work.mesh.tri[t as usize].v; if c.iter().any(|&v| mark[v as usize]) { for v in c { mark2[v as usize] = true; } } }
-    let verts: Vec<u32> = (0..mark2.len() as u32).filter(|&v| mark2[v as usize]).collect();
-    for v in verts {
-        if work.mesh.is_fixed(v) || !work.mesh.alive(v) { continue; }
-        work.solver.load(&work.mesh, &[v]);
-        work.solver.run(limits, 1);
-        work.solver.store(&mut work.mesh);
-        work.mesh.commit();
+/// The rounds, until nothing is bad. The last ones repeat what made progress.
+pub(crate) fn step(round: usize) -> Step {
+    match round {
+        0 => Step::Move { rings: 2 },
+        1 | 2 => Step::Move { rings: 3 },
+        3 | 4 => Step::Search { changes: 10, rings: 2 },
+        5 => Step::Search { changes: 30, rings: 3 },
+        r if r % 4 == 2 => Step::Refine,
+        r if r % 4 == 3 => Step::Move { rings: 3 },
+        r if r % 4 == 0 => Step::Search { changes: 15, rings: 2 },
+        _ => Step::Search { changes: 40, rings: 3 },
     }
-    for t in bad {
-        if !work.mesh.tri[t as usize].alive() || work.is_good(t) { continue; }
-        let c = work.mesh.tri[t as usize].v;
-        work.load(&c);
-        crate::flip::flip_patch(&mut work.mesh, &work.solver);
-        work.mesh.commit();
-    }
-    work.bad().len()
 }
 
-pub(crate) fn push_sweep(work: &mut Work, aim: &crate::angles::Limits, from: usize, to: usize, steps: usize) -> usize {
+/// Rounds after which a mesh is given up.
+pub(crate) const ROUNDS: usize = 60;
+
+/// Energy has to fall below this share for an unsolved patch to be kept.
+const KEEP_BELOW: f64 = 0.9;
+
+const MOVE: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.7 }, turns: 2, near: 0.3, steps: 4 };
+const SCREEN: Effort = Effort { sweeps: Sweeps { most: 16, stall: 0.7 }, turns: 2, near: 1.0, steps: 2 };
+const FINISH: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.8 }, turns: 3, near: 0.3, steps: 8 };
+
+/// Changes that are worked out after screening.
+const FINALISTS: usize = 4;
+
+/// One round over the bad triangles.
+pub(crate) fn repair(work: &mut Work, step: Step) {
     for t in work.bad() {
-        if !work.mesh.tri[t as usize].alive() || work.is_good(t) {
+        if !work.is_bad(t) {
             continue;
         }
-        let corners = work.mesh.tri[t as usize].v;
-        for r in from..=to {
-            work.load(&corners);
-            for _ in 1..r { work.grow(); }
-            let before = work.solver.state(work.limits).energy;
-            work.stats.repairs[0] += 1;
-            let last = r == to;
-            let state = work.quick(aim, 40, 1.5, 0.7, 2, 0.3, if last { steps } else { 0 });
-            if state.solved && work.changes_hold() {
-                work.stats.repairs[1] += 1;
-                work.commit();
-                break;
+        match step {
+            Step::Move { rings } => {
+                move_rings(work, t, rings);
             }
-            if last && state.energy < 0.9 * before {
-                work.commit();
-                break;
+            Step::Search { changes, rings } => {
+                if !move_rings(work, t, rings) {
+                    search(work, t, changes, rings);
+                }
             }
-            work.mesh.rollback();
+            Step::Refine => refine(work, t),
         }
     }
-    work.bad().len()
 }
 
-/// Statistics per action.
-#[derive(Default, Debug)]
-pub(crate) struct Tally { pub tried: [u64; 3], pub won: [u64; 3], pub rank: Vec<u64> }
-
-fn which(a: &crate::change::Action) -> usize {
-    match a { crate::change::Action::Remove{..} => 0, crate::change::Action::Insert{..} => 1, crate::change::Action::Flip{..} => 2 }
+/// Loads the patch of so many rings around triangle `t`.
+fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
+    work.load(verts);
+    for _ in 1..rings {
+        work.grow();
+    }
 }
 
-pub(crate) fn search(work: &mut Work, tally: &mut Tally, rings: usize, top: usize, turns: usize, factor: f64) -> usize {
-    let bad = work.bad();
-    for t in bad {
-        if !work.mesh.tri[t as usize].alive() || work.is_good(t) {
-            continue;
-        }
-        let corners = work.mesh.tri[t as usize].v;
-        work.load(&corners);
-        for _ in 1..rings { work.grow(); }
-        let before = work.solver.state(work.limits).energy;
-        let state = work.solve(turns, 6);
+/// Moves ever more rings around `t`; true when that settled the patch.
+fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
+    let corners = work.mesh.tri[t as usize].v;
+    for r in 1..=rings {
+        load_rings(work, &corners, r);
+        let before = work.patch.state(work.limits).energy;
+        let last = r == rings;
         work.stats.repairs[0] += 1;
-        if state.solved && work.changes_hold() { work.stats.repairs[1] += 1; work.commit(); continue; }
-        let mut best = state.energy;
-        work.mesh.rollback();
-        let mut changes = Vec::new();
-        crate::change::Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }.find(t);
-        let mut verts = Vec::new();
-        let mut win = None;
-        for (rank, c) in changes.iter().take(top).enumerate() {
-            if !crate::change::apply(&mut work.mesh, work.refills, c.action, &mut verts) { work.mesh.rollback(); continue; }
-            tally.tried[which(&c.action)] += 1;
-            for v in corners { if work.mesh.alive(v) && !verts.contains(&v) { verts.push(v); } }
-            work.load(&verts);
-            let state = work.solve(turns, 6);
-            let mut solved = state.solved;
-            let mut e = state.energy;
-            if !solved && rings > 1 {
-                work.grow();
-                let s = work.solve(turns, 6);
-                solved = s.solved; e = s.energy;
-            }
-            if solved && work.changes_hold() {
-                tally.won[which(&c.action)] += 1;
-                if tally.rank.len() <= rank { tally.rank.resize(rank + 1, 0); }
-                tally.rank[rank] += 1;
-                work.commit();
-                win = Some(0);
-                break;
-            }
-            let _ = &mut best; let _ = e; let _ = before; let _ = factor;
-            work.mesh.rollback();
+        let state = work.solve(if last { MOVE } else { Effort { near: 0.0, ..MOVE } });
+        if state.solved && work.changes_hold() {
+            work.stats.repairs[1] += 1;
+            work.commit();
+            return true;
         }
-        let _ = win;
+        if last && state.energy < KEEP_BELOW * before {
+            work.commit();
+            return false;
+        }
+        work.mesh.rollback();
     }
-    work.bad().len()
+    false
+}
+
+/// Tries changes of topology near `t`, best first, and keeps the first that
+/// settles everything, or else the one that lowers the energy most.
+fn search(work: &mut Work, t: u32, most: usize, rings: usize) {
+    let corners = work.mesh.tri[t as usize].v;
+    let mut changes = Vec::new();
+    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }.find(t);
+    let mut ranked: Vec<(f64, Action)> = Vec::new();
+    for change in changes.into_iter().take(most) {
+        let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else { continue };
+        if keep_if_solved(work, state) {
+            return;
+        }
+        work.mesh.rollback();
+        ranked.push((state.energy - before, change.action));
+    }
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut best: Option<(f64, Action, usize)> = None;
+    for &(_, action) in ranked.iter().take(FINALISTS) {
+        for r in 2..=rings.max(2) {
+            let Some((before, state)) = attempt(work, action, corners, r, FINISH) else { continue };
+            if keep_if_solved(work, state) {
+                return;
+            }
+            work.mesh.rollback();
+            let gain = state.energy - before;
+            if state.energy < KEEP_BELOW * before && best.is_none_or(|b| gain < b.0) {
+                best = Some((gain, action, r));
+            }
+        }
+    }
+    if let Some((_, action, r)) = best
+        && attempt(work, action, corners, r, FINISH).is_some()
+    {
+        work.commit();
+    }
+}
+
+fn keep_if_solved(work: &mut Work, state: State) -> bool {
+    work.stats.repairs[0] += 1;
+    let solved = state.solved && work.changes_hold();
+    if solved {
+        work.stats.repairs[1] += 1;
+        work.commit();
+    }
+    solved
+}
+
+/// Makes a change and settles so many rings around it; returns the energy of
+/// the same region before and its state after. The change stays in the
+/// journal.
+fn attempt(work: &mut Work, action: Action, corners: [u32; 3], rings: usize, effort: Effort) -> Option<(f64, State)> {
+    let mut verts = Vec::new();
+    action.region(&work.mesh, &mut verts);
+    let join = |verts: &mut Vec<u32>| {
+        for v in corners {
+            if !verts.contains(&v) {
+                verts.push(v);
+            }
+        }
+    };
+    join(&mut verts);
+    load_rings(work, &verts, rings);
+    let before = work.patch.state(work.limits).energy;
+    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+        work.mesh.rollback();
+        return None;
+    }
+    join(&mut verts);
+    verts.retain(|&v| work.mesh.alive(v));
+    load_rings(work, &verts, rings);
+    Some((before, work.solve(effort)))
+}
+
+/// Splits the three sides of `t`, to be settled in rounds to come.
+fn refine(work: &mut Work, t: u32) {
+    let mut verts = work.mesh.tri[t as usize].v.to_vec();
+    let mut made = Vec::new();
+    for i in 0..3 {
+        let (a, b) = (verts[i], verts[(i + 1) % 3]);
+        // The first split replaces `t`: find the side by its ends.
+        if let Some((t, k)) = work.mesh.side(a, b) {
+            verts.extend(work.mesh.split_edge(t, k, &mut made));
+        }
+    }
+    load_rings(work, &verts, 2);
+    work.solve(FINISH);
+    work.commit();
 }

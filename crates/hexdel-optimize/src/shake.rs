@@ -1,72 +1,107 @@
 //! Random neutral changes that make removals possible.
-use crate::decimate::{Pass, remove, settle};
+//!
+//! When no single removal succeeds any more, the mesh is jammed: its degrees
+//! fit the angles nowhere else. Moving one vertex to another place nearby, or
+//! exchanging one edge, keeps the number of triangles and moves the irregular
+//! degrees; now and then that lets a vertex go.
+
+use crate::change::{Action, Change, Finder, apply};
+use crate::decimate::{Pass, settle, try_remove};
+use crate::refill::{MAX_CORNERS, degree_cost};
 use crate::work::Work;
 
-pub(crate) fn shake(work: &mut Work, pass: Pass, tries: usize, mode: usize, after: usize) -> [usize; 4] {
-    let mut count = [0; 4];
-    let n = work.mesh.pos.len();
-    for _ in 0..tries {
-        let v = work.random.below(n) as u32;
-        if !work.mesh.alive(v) || work.mesh.is_fixed(v) { continue; }
-        count[0] += 1;
-        let mut verts = Vec::new();
-        let ok = if mode == 0 {
-            // flip a random edge of the link or the star
-            let (mut tris, mut ring) = (Vec::new(), Vec::new());
-            work.mesh.ring(v, &mut tris, &mut ring);
-            let t = tris[work.random.below(tris.len())];
-            let k = work.random.below(3);
-            let Some((_, d)) = work.mesh.diamond(t, k) else { continue };
-            let cost: f64 = d.into_iter().enumerate().map(|(i, w)| {
-                let n = work.mesh.degree(w);
-                let n2 = if i == 0 || i == 3 { n + 1 } else { n - 1 };
-                let s = work.mesh.sector[w as usize];
-                crate::refill::degree_cost(work.limits, s, n2) - crate::refill::degree_cost(work.limits, s, n)
-            }).sum();
-            if cost > 0.5 { continue; }
-            if !work.mesh.flip(t, k) { continue; }
-            verts.extend(d);
-            settle(work, &verts, pass)
+/// Rounds of shakes.
+pub(crate) const SHAKES: usize = 20;
+
+/// Shakes tried in one round for each vertex.
+const SHARE: f64 = 0.5;
+
+/// Refills and exchanges that cost more are not tried.
+const MAX_COST: f64 = 1.0;
+
+const SHAKE: Pass = Pass { rings: 3, refills: 1, max_cost: 0.6, near: 0.0 };
+const REMOVE: Pass = Pass { rings: 3, refills: 1, max_cost: 0.55, near: 0.01 };
+
+/// One round.
+pub(crate) fn shake(work: &mut Work) {
+    let vertices = work.mesh.pos.len();
+    for _ in 0..(SHARE * vertices as f64) as usize {
+        let v = work.random.below(vertices) as u32;
+        if !work.mesh.alive(v) || work.mesh.is_fixed(v) {
+            continue;
+        }
+        work.stats.shakes[0] += 1;
+        let kept = if work.random.below(2) == 0 { exchange(work, v) } else { transplant(work, v) };
+        if kept && work.changes_hold() {
+            work.stats.shakes[1] += 1;
+            work.commit();
+            remove_near(work);
         } else {
-            // remove v, insert elsewhere nearby
-            let (mut tris, mut ring) = (Vec::new(), Vec::new());
-            if !work.mesh.ring(v, &mut tris, &mut ring) || ring.len() > 8 { continue; }
-            let mut chosen = Vec::new();
-            work.refills.choose(&work.mesh, work.limits, &ring, true, 4, &mut chosen);
-            if chosen.is_empty() { continue; }
-            let c = chosen[work.random.below(chosen.len())];
-            if c.0 > 1.0 { continue; }
-            let mut new = Vec::new();
-            if !work.refills.triangles(&work.mesh, &ring, true, c.1, &mut new) { continue; }
-            let mut made = Vec::new();
-            work.mesh.replace(&tris, &new, &mut made);
-            // insert near: a triangle around a random ring vertex
-            let w = ring[work.random.below(ring.len())];
-            let (mut t2, mut r2) = (Vec::new(), Vec::new());
-            work.mesh.ring(w, &mut t2, &mut r2);
-            let t = t2[work.random.below(t2.len())];
-            let mut changes = Vec::new();
-            crate::change::Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }.find(t);
-            changes.retain(|c| matches!(c.action, crate::change::Action::Insert { .. }));
-            if changes.is_empty() { work.mesh.rollback(); continue; }
-            let pick = work.random.below(changes.len().min(3));
-            let a = changes[pick].action;
-            if !crate::change::apply(&mut work.mesh, work.refills, a, &mut verts) { work.mesh.rollback(); continue; }
-            for x in ring { if !verts.contains(&x) { verts.push(x); } }
-            settle(work, &verts, pass)
-        };
-        if !ok { work.mesh.rollback(); continue; }
-        work.commit();
-        count[1] += 1;
-        if after > 0 {
-            let near: Vec<u32> = work.solver.vertices().to_vec();
-            for w in near {
-                if work.mesh.alive(w) && !work.mesh.is_fixed(w) && work.failed[w as usize] < pass.rings {
-                    count[2] += 1;
-                    if remove(work, w, pass) { count[3] += 1; } else { work.failed[w as usize] = pass.rings; }
-                }
-            }
+            work.mesh.rollback();
         }
     }
-    count
+}
+
+/// Exchanges a random edge at `v` or opposite of it.
+fn exchange(work: &mut Work, v: u32) -> bool {
+    let (mut tris, mut ring) = (Vec::new(), Vec::new());
+    work.mesh.ring(v, &mut tris, &mut ring);
+    let t = tris[work.random.below(tris.len())];
+    let k = work.random.below(3);
+    let Some((_, d)) = work.mesh.diamond(t, k) else { return false };
+    let mut cost = 0.0;
+    for (i, w) in d.into_iter().enumerate() {
+        let (sector, n) = (work.mesh.sector[w as usize], work.mesh.degree(w));
+        let after = if i == 0 || i == 3 { n + 1 } else { n - 1 };
+        cost += degree_cost(work.limits, sector, after) - degree_cost(work.limits, sector, n);
+    }
+    cost < MAX_COST && work.mesh.flip(t, k) && settle(work, &d, SHAKE)
+}
+
+/// Removes `v` and inserts a vertex somewhere near.
+fn transplant(work: &mut Work, v: u32) -> bool {
+    let (mut tris, mut ring, mut new) = (Vec::new(), Vec::new(), Vec::new());
+    if !work.mesh.ring(v, &mut tris, &mut ring) || ring.len() > MAX_CORNERS {
+        return false;
+    }
+    let mut chosen = Vec::new();
+    work.refills.choose(&work.mesh, work.limits, &ring, true, 4, &mut chosen);
+    chosen.retain(|c| c.0 < MAX_COST);
+    if chosen.is_empty() {
+        return false;
+    }
+    let (_, refill) = chosen[work.random.below(chosen.len())];
+    if !work.refills.triangles(&work.mesh, &ring, true, refill, &mut new) {
+        return false;
+    }
+    work.mesh.replace(&tris, &new, &mut Vec::new());
+    let Some(action) = insertion_near(work, ring[0]) else { return false };
+    let mut verts = Vec::new();
+    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+        return false;
+    }
+    let near: Vec<u32> = ring.into_iter().filter(|w| !verts.contains(w)).collect();
+    verts.extend(near);
+    settle(work, &verts, SHAKE)
+}
+
+/// One of the best insertions at a random triangle near `v`.
+fn insertion_near(work: &mut Work, v: u32) -> Option<Action> {
+    let (mut tris, mut ring) = (Vec::new(), Vec::new());
+    work.mesh.ring(v, &mut tris, &mut ring);
+    let t = tris[work.random.below(tris.len())];
+    let mut changes: Vec<Change> = Vec::new();
+    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }.find_insertions(t);
+    let best = changes.len().min(3);
+    (best > 0).then(|| changes[work.random.below(best)].action)
+}
+
+/// Tries to remove what the shake may have loosened.
+fn remove_near(work: &mut Work) {
+    let near: Vec<u32> = work.patch.vertices().to_vec();
+    for v in near {
+        if work.mesh.alive(v) && !work.mesh.is_fixed(v) {
+            try_remove(work, v, REMOVE);
+        }
+    }
 }

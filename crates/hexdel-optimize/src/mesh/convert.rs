@@ -1,10 +1,11 @@
-//! Between plain triangles and the editable mesh.
+//! Between arrays and the editable mesh.
 
 use hexdel_geom::DVec2;
 
 use super::{Mesh, Motion, NONE, Tri};
 
-/// A mesh as arrays: what is kept between the rounds of work.
+/// A mesh as arrays: what is kept between the rounds of work. All but `tris`
+/// are as long as `pos`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Soup {
     pub(crate) pos: Vec<DVec2>,
@@ -13,33 +14,38 @@ pub(crate) struct Soup {
     pub(crate) sector: Vec<f64>,
     /// Index of the vertex in the caller's mesh, `NONE` for new ones.
     pub(crate) origin: Vec<u32>,
-    /// Radius of the patches in which the removal of the vertex failed, with
-    /// nothing changed nearby since; 0 if it has not been tried.
+    /// Radius in rings of the patches in which the removal of the vertex
+    /// failed, with nothing changed nearby since; 0 if it has not been tried.
     pub(crate) failed: Vec<u8>,
     pub(crate) tris: Vec<[u32; 3]>,
 }
 
-/// A side that more than two triangles have, or two in the same direction.
+/// A side that two triangles have in the same direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct BadSide {
     pub(crate) from: u32,
     pub(crate) to: u32,
 }
 
+/// The vertices of a mesh to be built.
+pub(crate) struct Vertices {
+    pub(crate) pos: Vec<DVec2>,
+    pub(crate) motion: Vec<Motion>,
+    pub(crate) sector: Vec<f64>,
+    /// Triangles at each vertex that are not in the mesh.
+    pub(crate) outside: Vec<u16>,
+}
+
 impl Mesh {
-    /// Builds the mesh of `tris`; `outside[v]` counts triangles at `v` that
-    /// are not among them.
-    pub(crate) fn build(
-        pos: Vec<DVec2>,
-        motion: Vec<Motion>,
-        sector: Vec<f64>,
-        tris: &[[u32; 3]],
-        outside: &[u16],
-    ) -> Result<Self, BadSide> {
+    /// Builds the mesh of `tris`.
+    ///
+    /// # Complexity
+    ///
+    /// Linear for vertices of bounded degree.
+    pub(crate) fn build(vertices: Vertices, tris: &[[u32; 3]]) -> Result<Self, BadSide> {
+        let Vertices { pos, motion, sector, outside: mut degree } = vertices;
         let neighbours = neighbours(pos.len(), tris)?;
         let mut anchor = vec![NONE; pos.len()];
-        let mut degree = outside.to_vec();
-        degree.resize(pos.len(), 0);
         for (t, v) in tris.iter().enumerate() {
             for &v in v {
                 anchor[v as usize] = t as u32;
@@ -55,38 +61,34 @@ impl Mesh {
 /// by their smaller vertex.
 fn neighbours(vertices: usize, tris: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, BadSide> {
     let side = |t: usize, k: usize| (tris[t][(k + 1) % 3], tris[t][(k + 2) % 3]);
-    let mut end = vec![0u32; vertices + 1];
-    for t in 0..tris.len() {
-        for k in 0..3 {
-            let (a, b) = side(t, k);
-            end[a.min(b) as usize + 1] += 1;
-        }
+    let sides = || (0..tris.len()).flat_map(|t| (0..3).map(move |k| (t, k)));
+    let mut start = vec![0u32; vertices + 1];
+    for (t, k) in sides() {
+        let (a, b) = side(t, k);
+        start[a.min(b) as usize + 1] += 1;
     }
     for i in 0..vertices {
-        end[i + 1] += end[i];
+        start[i + 1] += start[i];
     }
-    let start = end.clone();
     let mut bucket = vec![0u32; tris.len() * 3];
     let mut n = vec![[NONE; 3]; tris.len()];
     let mut fill = start.clone();
-    for t in 0..tris.len() {
-        for k in 0..3 {
-            let (a, b) = side(t, k);
-            let low = a.min(b) as usize;
-            for &code in &bucket[start[low] as usize..fill[low] as usize] {
-                let (t2, k2) = (code as usize / 3, code as usize % 3);
-                let other = side(t2, k2);
-                if other == (a, b) {
-                    return Err(BadSide { from: a, to: b });
-                }
-                if other == (b, a) {
-                    n[t][k] = t2 as u32;
-                    n[t2][k2] = t as u32;
-                }
+    for (t, k) in sides() {
+        let (a, b) = side(t, k);
+        let low = a.min(b) as usize;
+        for &code in &bucket[start[low] as usize..fill[low] as usize] {
+            let (t2, k2) = (code as usize / 3, code as usize % 3);
+            let other = side(t2, k2);
+            if other == (a, b) {
+                return Err(BadSide { from: a, to: b });
             }
-            bucket[fill[low] as usize] = (3 * t + k) as u32;
-            fill[low] += 1;
+            if other == (b, a) {
+                n[t][k] = t2 as u32;
+                n[t2][k2] = t as u32;
+            }
         }
+        bucket[fill[low] as usize] = (3 * t + k) as u32;
+        fill[low] += 1;
     }
     Ok(n)
 }

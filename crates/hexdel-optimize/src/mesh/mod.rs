@@ -9,7 +9,7 @@ mod check;
 mod convert;
 mod ops;
 
-pub(crate) use convert::Soup;
+pub(crate) use convert::{Soup, Vertices};
 
 use hexdel_geom::DVec2;
 
@@ -52,6 +52,8 @@ impl Tri {
 pub(crate) enum Motion {
     /// Not at all.
     Fixed,
+    /// Not now: the vertex is shared with a part that others work on.
+    Frozen,
     /// Along a unit vector.
     Along(DVec2),
     /// Anywhere.
@@ -78,7 +80,9 @@ pub(crate) struct Mesh {
     /// Angle of the domain at each vertex, radians: a full turn inside, a
     /// half-turn on a side. As long as `pos`; never changes.
     pub(crate) sector: Vec<f64>,
-    /// Dead or: corners alive and distinct, neighbours alive and mutual.
+    /// Dead or: corners alive and distinct, neighbours alive and mutual. The
+    /// triangles at a vertex form one fan, except at frozen ones: a part may
+    /// touch itself there.
     pub(crate) tri: Vec<Tri>,
     /// One live triangle at each live vertex, `NONE` for dead ones.
     anchor: Vec<u32>,
@@ -100,8 +104,9 @@ impl Mesh {
         self.anchor[v as usize] != NONE
     }
 
+    /// Whether `v` may neither move nor go.
     pub(crate) fn is_fixed(&self, v: u32) -> bool {
-        self.motion[v as usize] == Motion::Fixed
+        matches!(self.motion[v as usize], Motion::Fixed | Motion::Frozen)
     }
 
     #[inline]
@@ -142,10 +147,31 @@ impl Mesh {
         }
     }
 
-    /// Whether an edge joins `a` and `b`.
+    /// Whether an edge joins `a` and `b`, or may join them in another part.
     pub(crate) fn adjacent(&self, a: u32, b: u32) -> bool {
+        // Only one fan of a frozen vertex can be walked; ask the other one.
+        let (a, b) = if self.motion[a as usize] == Motion::Frozen { (b, a) } else { (a, b) };
+        if self.motion[a as usize] == Motion::Frozen {
+            return true;
+        }
         let mut found = false;
         self.around(a, |t, _| found |= self.tri[t as usize].v.contains(&b));
+        found
+    }
+
+    /// The triangle on the left of the side from `a` to `b`, or on its right
+    /// where it has none on the left, and the corner opposite.
+    pub(crate) fn side(&self, a: u32, b: u32) -> Option<(u32, usize)> {
+        let (a, b) = if self.motion[a as usize] == Motion::Frozen { (b, a) } else { (a, b) };
+        let mut found = None;
+        self.around(a, |t, k| {
+            let c = self.tri[t as usize].v;
+            if c[(k + 1) % 3] == b {
+                found = Some((t, (k + 2) % 3));
+            } else if c[(k + 2) % 3] == b && found.is_none() {
+                found = Some((t, (k + 1) % 3));
+            }
+        });
         found
     }
 
@@ -234,30 +260,19 @@ impl Mesh {
 
     /// Takes all changes since the last commit back.
     pub(crate) fn rollback(&mut self) {
-        self.rollback_to(0);
-    }
-
-    /// How many changes there are since the last commit.
-    pub(crate) fn savepoint(&self) -> usize {
-        self.journal.len()
-    }
-
-    /// Takes the changes after a savepoint back.
-    pub(crate) fn rollback_to(&mut self, savepoint: usize) {
-        while self.journal.len() > savepoint {
-            match self.journal.pop() {
-                None => return,
-                Some(Change::Moved(v, p)) => self.pos[v as usize] = p,
-                Some(Change::Anchor(v, t)) => self.anchor[v as usize] = t,
-                Some(Change::Triangle(t, old)) => {
+        while let Some(change) = self.journal.pop() {
+            match change {
+                Change::Moved(v, p) => self.pos[v as usize] = p,
+                Change::Anchor(v, t) => self.anchor[v as usize] = t,
+                Change::Triangle(t, old) => {
                     self.count(self.tri[t as usize], false);
                     self.count(old, true);
                     self.tri[t as usize] = old;
                 }
-                Some(Change::NewTriangle) => {
+                Change::NewTriangle => {
                     self.tri.pop();
                 }
-                Some(Change::NewVertex) => {
+                Change::NewVertex => {
                     self.pos.pop();
                     self.motion.pop();
                     self.sector.pop();

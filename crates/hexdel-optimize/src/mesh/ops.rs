@@ -144,9 +144,9 @@ impl Mesh {
 
     /// Puts a new vertex at the middle of the side opposite corner `k` of `t`.
     ///
-    /// A vertex on the rim slides along its side; one between two vertices
-    /// neither of which is on the rim is free.
-    pub(crate) fn split_edge(&mut self, t: u32, k: usize, made: &mut Vec<u32>) -> u32 {
+    /// A vertex on the rim slides along its side, any other is free. None
+    /// where the side is the seam to another part.
+    pub(crate) fn split_edge(&mut self, t: u32, k: usize, made: &mut Vec<u32>) -> Option<u32> {
         let v = self.tri[t as usize].v;
         let (apex, from, to) = (v[k], v[(k + 1) % 3], v[(k + 2) % 3]);
         let (p, q) = (self.pos[from as usize], self.pos[to as usize]);
@@ -154,21 +154,14 @@ impl Mesh {
         if let Some((u, [_, _, _, far])) = self.diamond(t, k) {
             let m = self.add_vertex(mid, Motion::Free, std::f64::consts::TAU);
             self.replace(&[t, u], &[[apex, from, m], [apex, m, to], [far, m, from], [far, to, m]], made);
-            m
+            Some(m)
+        } else if [from, to].iter().all(|v| self.motion[*v as usize] == Motion::Frozen) {
+            None
         } else {
             let m = self.add_vertex(mid, Motion::Along((q - p).normalize()), std::f64::consts::PI);
             self.replace(&[t], &[[apex, from, m], [apex, m, to]], made);
-            // The two halves of the rim side are new sides without counterpart.
-            m
+            Some(m)
         }
-    }
-
-    /// Puts a new vertex at `p` inside triangle `t`.
-    pub(crate) fn split_triangle(&mut self, t: u32, p: DVec2, made: &mut Vec<u32>) -> u32 {
-        let [a, b, c] = self.tri[t as usize].v;
-        let m = self.add_vertex(p, Motion::Free, std::f64::consts::TAU);
-        self.replace(&[t], &[[a, b, m], [b, c, m], [c, a, m]], made);
-        m
     }
 }
 

@@ -12,9 +12,7 @@ use hexdel_geom::DVec2;
 pub(crate) struct Skyline {
     /// First stored column of each row; even.
     first: Vec<usize>,
-    /// Index in `a` of each row's column 0 were it stored: the entry (i, j)
-    /// is `a[base[i] + j]`, with wrapping arithmetic avoided by storing the
-    /// row's start instead and subtracting `first`.
+    /// Index in `a` of each row's first stored entry.
     start: Vec<usize>,
     /// Entries, row by row from `first` to the diagonal.
     a: Vec<f64>,
