@@ -68,6 +68,17 @@ fn main() {
                 continue;
             }
         };
+        if std::env::var("SHOW").is_ok() {
+            let mut degree = vec![0; result.mesh.vertices.len()];
+            for t in &result.mesh.triangles { for v in t { degree[v.index()] += 1; } }
+            for t in &result.mesh.triangles {
+                let p = t.map(|v| result.mesh.vertices[v.index()]);
+                let a: [f64; 3] = std::array::from_fn(|k| { let (u, w) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]); u.perp_dot(w).atan2(u.dot(w)).to_degrees() });
+                if a.iter().any(|x| *x < min - 1e-9 || *x > max + 1e-9) {
+                    println!("{:?} at {:.4} angles {:.2?}", t.map(|v| (result.kinds[v.index()] == hexdel_optimize::VertexKind::Fixed, degree[v.index()], v.index())), p[0], a);
+                }
+            }
+        }
         let (wall, cpu) = (wall.elapsed().as_secs_f64(), cpu_seconds() - cpu);
         let s = result.stats;
         println!(

@@ -59,19 +59,12 @@ pub(crate) struct Finder<'a> {
 }
 
 impl Finder<'_> {
-    /// All changes near `t`, best first.
-    pub(crate) fn find(&mut self, t: u32) {
+    /// All changes at `t` and the removals of the vertices `around` it, best
+    /// first.
+    pub(crate) fn find(&mut self, t: u32, around: &[u32]) {
         self.out.clear();
         let tri = self.mesh.tri[t as usize];
-        let mut near = tri.v.to_vec();
-        for k in 0..3 {
-            if let Some((_, d)) = self.mesh.diamond(t, k)
-                && !near.contains(&d[3])
-            {
-                near.push(d[3]);
-            }
-        }
-        for v in near {
+        for &v in around {
             self.removals(v);
         }
         for k in 0..3 {

@@ -6,6 +6,8 @@
 //! but not wander.
 
 use crate::change::{Action, Finder, apply};
+use crate::decimate::{Pass, try_remove};
+use crate::mesh::{Mesh, Motion};
 use crate::patch::{State, Sweeps};
 use crate::work::{Effort, Work};
 
@@ -14,35 +16,48 @@ use crate::work::{Effort, Work};
 pub(crate) enum Step {
     /// Moves up to this many rings around the triangle.
     Move { rings: usize },
-    /// Tries so many changes of topology and moves up to so many rings.
-    Search { changes: usize, rings: usize },
-    /// Splits its three sides.
+    /// Tries so many changes of topology at the triangle, or around it if
+    /// `wide`, and moves up to so many rings.
+    Search { changes: usize, rings: usize, wide: bool },
+    /// Removes vertices of three rings around the triangle; one that has no
+    /// corner that can move is split.
+    Thin,
+    /// Splits the sides of the triangle.
     Refine,
 }
 
-/// The rounds, until nothing is bad. The last ones repeat what made progress.
+/// The rounds, until nothing is bad.
 pub(crate) fn step(round: usize) -> Step {
     match round {
         0 => Step::Move { rings: 2 },
         1 | 2 => Step::Move { rings: 3 },
-        3 | 4 => Step::Search { changes: 10, rings: 2 },
-        5 => Step::Search { changes: 30, rings: 3 },
-        r if r % 4 == 2 => Step::Refine,
-        r if r % 4 == 3 => Step::Move { rings: 3 },
-        r if r % 4 == 0 => Step::Search { changes: 15, rings: 2 },
-        _ => Step::Search { changes: 40, rings: 3 },
+        3 => Step::Search { changes: 10, rings: 2, wide: false },
+        4 => Step::Search { changes: 20, rings: 3, wide: false },
+        r if r % 4 == 1 => Step::Thin,
+        r if r % 4 == 3 && r > 10 => Step::Refine,
+        r if r % 4 == 2 => Step::Search { changes: 30, rings: 3, wide: r > 8 },
+        _ => Step::Search { changes: 60, rings: 4, wide: true },
     }
 }
 
+/// Rounds that come before removals: motion and the nearest changes.
+pub(crate) const FIRST_ROUNDS: usize = 4;
+
 /// Rounds after which a mesh is given up.
-pub(crate) const ROUNDS: usize = 60;
+pub(crate) const ROUNDS: usize = 64;
 
 /// Energy has to fall below this share for an unsolved patch to be kept.
 const KEEP_BELOW: f64 = 0.9;
 
+/// Energy up to which new vertices are kept: a few corners some degrees
+/// outside, which motion and search can settle.
+const REFINED_BELOW: f64 = 0.1;
+
 const MOVE: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.7 }, turns: 2, near: 0.3, steps: 4 };
 const SCREEN: Effort = Effort { sweeps: Sweeps { most: 16, stall: 0.7 }, turns: 2, near: 1.0, steps: 2 };
 const FINISH: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.8 }, turns: 3, near: 0.3, steps: 8 };
+
+const THIN: Pass = Pass { rings: 3, refills: 2, max_cost: 0.8, near: 0.05 };
 
 /// Changes that are worked out after screening.
 const FINALISTS: usize = 4;
@@ -57,12 +72,14 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
             Step::Move { rings } => {
                 move_rings(work, t, rings);
             }
-            Step::Search { changes, rings } => {
-                if !move_rings(work, t, rings) {
-                    search(work, t, changes, rings);
+            Step::Search { changes, rings, wide } => {
+                if !move_rings(work, t, rings) && work.is_bad(t) {
+                    search(work, t, changes, rings, wide);
                 }
             }
-            Step::Refine => refine(work, t),
+            Step::Thin if has_no_room(&work.mesh, t) => refine(work, t, f64::INFINITY),
+            Step::Thin => thin(work, t),
+            Step::Refine => refine(work, t, REFINED_BELOW),
         }
     }
 }
@@ -100,10 +117,12 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
 
 /// Tries changes of topology near `t`, best first, and keeps the first that
 /// settles everything, or else the one that lowers the energy most.
-fn search(work: &mut Work, t: u32, most: usize, rings: usize) {
+fn search(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let corners = work.mesh.tri[t as usize].v;
     let mut changes = Vec::new();
-    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }.find(t);
+    load_rings(work, &corners, if wide { 2 } else { 1 });
+    let around = work.patch.vertices().to_vec();
+    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }.find(t, &around);
     let mut ranked: Vec<(f64, Action)> = Vec::new();
     for change in changes.into_iter().take(most) {
         let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else { continue };
@@ -171,9 +190,30 @@ fn attempt(work: &mut Work, action: Action, corners: [u32; 3], rings: usize, eff
     Some((before, work.solve(effort)))
 }
 
-/// Splits the three sides of `t`, to be settled in rounds to come.
-fn refine(work: &mut Work, t: u32) {
+/// Removes vertices near `t`, small neighbourhoods first, as long as `t` is bad.
+fn thin(work: &mut Work, t: u32) {
+    let corners = work.mesh.tri[t as usize].v;
+    load_rings(work, &corners, 3);
+    let mut near: Vec<(f64, u32)> = work.patch.movable().iter().map(|&v| (work.mesh.shortest_edge(v), v)).collect();
+    near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    for (_, v) in near {
+        if work.mesh.alive(v) && try_remove(work, v, THIN) && !work.is_bad(t) {
+            return;
+        }
+    }
+}
+
+/// Whether `t` joins three vertices that never move.
+fn has_no_room(mesh: &Mesh, t: u32) -> bool {
+    mesh.tri[t as usize].v.iter().all(|v| mesh.motion[*v as usize] == Motion::Fixed)
+}
+
+/// Splits the three sides of `t`; kept if the energy stays below `below` or
+/// what it was. New vertices give room to rounds to come.
+fn refine(work: &mut Work, t: u32, below: f64) {
     let mut verts = work.mesh.tri[t as usize].v.to_vec();
+    load_rings(work, &verts, 3);
+    let before = work.patch.state(work.limits).energy;
     let mut made = Vec::new();
     for i in 0..3 {
         let (a, b) = (verts[i], verts[(i + 1) % 3]);
@@ -182,7 +222,10 @@ fn refine(work: &mut Work, t: u32) {
             verts.extend(work.mesh.split_edge(t, k, &mut made));
         }
     }
-    load_rings(work, &verts, 2);
-    work.solve(FINISH);
-    work.commit();
+    load_rings(work, &verts, 3);
+    if work.solve(FINISH).energy < below.max(before) {
+        work.commit();
+    } else {
+        work.mesh.rollback();
+    }
 }

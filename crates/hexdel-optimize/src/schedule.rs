@@ -53,6 +53,9 @@ pub fn optimize(mesh: TriMesh, kinds: &[VertexKind], options: &Options<'_>) -> R
     run.finish(vertices)
 }
 
+/// Passes of removals before the last repairs.
+const EARLY_PASSES: usize = 6;
+
 /// The state between rounds.
 struct Run<'a> {
     soup: Soup,
@@ -78,32 +81,42 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn all(&mut self) {
-        self.repair();
-        if self.options.effort >= Effort::Standard {
-            for (i, pass) in PASSES.into_iter().enumerate() {
-                if !self.round(Phase::Decimate, i, |work| {
-                    decimate(work, pass);
-                }) {
-                    return;
-                }
-            }
+    /// The phases in turn. Most of the removals come before the last repairs:
+    /// what motion alone does not settle often goes with a vertex, and search
+    /// is cheaper on the coarser mesh.
+    fn all(&mut self) -> Option<()> {
+        self.repair(0, repair::FIRST_ROUNDS)?;
+        if self.options.effort == Effort::Fast {
+            return self.repair(repair::FIRST_ROUNDS, repair::ROUNDS);
         }
-        if self.options.effort >= Effort::Best {
+        self.decimate(0, EARLY_PASSES)?;
+        self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
+        self.decimate(EARLY_PASSES, PASSES.len())?;
+        if self.options.effort == Effort::Best {
             for i in 0..SHAKES {
-                if !self.round(Phase::Shake, i, shake) {
-                    return;
-                }
+                self.round(Phase::Shake, i, shake)?;
             }
         }
+        Some(())
     }
 
-    fn repair(&mut self) {
-        for i in 0..repair::ROUNDS {
-            if self.bad().next().is_none() || !self.round(Phase::Repair, i, |work| repair(work, repair::step(i))) {
-                return;
-            }
+    fn decimate(&mut self, from: usize, to: usize) -> Option<()> {
+        for (i, &pass) in PASSES.iter().enumerate().take(to).skip(from) {
+            self.round(Phase::Decimate, i, |work| {
+                decimate(work, pass);
+            })?;
         }
+        Some(())
+    }
+
+    fn repair(&mut self, from: usize, to: usize) -> Option<()> {
+        for i in from..to {
+            if self.bad().next().is_none() {
+                break;
+            }
+            self.round(Phase::Repair, i, |work| repair(work, repair::step(i)))?;
+        }
+        Some(())
     }
 
     /// Triangles outside the bounds.
@@ -114,12 +127,12 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Does `job` to every part of a new partition; false when the work is to
+    /// Does `job` to every part of a new partition; none when the work is to
     /// stop, before anything is done.
-    fn round(&mut self, phase: Phase, index: usize, job: impl Fn(&mut Work) + Sync) -> bool {
+    fn round(&mut self, phase: Phase, index: usize, job: impl Fn(&mut Work) + Sync) -> Option<()> {
         if !self.may_go_on(phase, index) {
             self.stopped = true;
-            return false;
+            return None;
         }
         let round = self.stats.rounds;
         let cuts = partition(&self.soup, round);
@@ -146,7 +159,7 @@ impl<'a> Run<'a> {
         }
         self.soup = merge(&self.soup, &parts);
         self.stats.rounds += 1;
-        true
+        Some(())
     }
 
     fn may_go_on(&self, phase: Phase, round: usize) -> bool {

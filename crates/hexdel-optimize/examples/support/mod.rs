@@ -538,7 +538,7 @@ pub fn start_where(points: &[DVec2], rule: Rule, strict: &[bool]) -> Start {
     let reach = grid.split.first().map_or(0, |s| {
         s.iter().map(|h| h.0.abs().max(h.1.abs()).max((h.0 + h.1).abs())).max().unwrap_or(0)
     });
-    grid.radius = reach + 2;
+    grid.radius = reach + 3;
     let mut triples = Vec::new();
     for k in 0..grid.split.len() {
         let mut m = BTreeMap::new();
