@@ -34,7 +34,7 @@ pub(crate) fn step(round: usize) -> Step {
         3 => Step::Search { changes: 10, rings: 2, wide: false },
         4 => Step::Search { changes: 20, rings: 3, wide: false },
         r if r % 4 == 1 => Step::Thin,
-        r if r % 4 == 3 && r > 10 => Step::Refine,
+        r if r % 8 == 3 && r > 8 => Step::Refine,
         r if r % 4 == 2 => Step::Search { changes: 30, rings: 3, wide: r > 8 },
         _ => Step::Search { changes: 60, rings: 4, wide: true },
     }
@@ -44,14 +44,14 @@ pub(crate) fn step(round: usize) -> Step {
 pub(crate) const FIRST_ROUNDS: usize = 4;
 
 /// Rounds after which a mesh is given up.
-pub(crate) const ROUNDS: usize = 64;
+pub(crate) const ROUNDS: usize = 43;
 
 /// Energy has to fall below this share for an unsolved patch to be kept.
 const KEEP_BELOW: f64 = 0.9;
 
-/// Energy up to which new vertices are kept: a few corners some degrees
-/// outside, which motion and search can settle.
-const REFINED_BELOW: f64 = 0.1;
+/// Energy up to which a change that is meant to give room is kept: a few
+/// corners some degrees outside, which motion and search can settle.
+const TOLERATED: f64 = 0.1;
 
 const MOVE: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.7 }, turns: 2, near: 0.3, steps: 4 };
 const SCREEN: Effort = Effort { sweeps: Sweeps { most: 16, stall: 0.7 }, turns: 2, near: 1.0, steps: 2 };
@@ -79,7 +79,7 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
             }
             Step::Thin if has_no_room(&work.mesh, t) => refine(work, t, f64::INFINITY),
             Step::Thin => thin(work, t),
-            Step::Refine => refine(work, t, REFINED_BELOW),
+            Step::Refine => refine(work, t, TOLERATED),
         }
     }
 }

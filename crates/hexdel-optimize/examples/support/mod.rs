@@ -276,10 +276,54 @@ impl Grid {
                 }
             }
         }
+        if wrong.is_empty() {
+            wrong = self.facing(occupied);
+        }
         for &(k, h) in &wrong {
             self.subdivide(k, h);
         }
         !wrong.is_empty()
+    }
+
+    /// Fronts must be compatible: of two neighbours that both move, without a
+    /// fin in common, one is to be subdivided (the top of a run is
+    /// compatible with the run and with what shares a fin with it).
+    fn facing(&self, occupied: &BTreeMap<Cell, usize>) -> Vec<Cell> {
+        let mut wrong = Vec::new();
+        for k in 0..self.split.len() {
+            let mut fins: BTreeMap<Hex, u8> = BTreeMap::new();
+            let mut tops: BTreeSet<Hex> = BTreeSet::new();
+            for h in self.fronts(k).into_iter().filter(|h| !occupied.contains_key(&(k, *h))) {
+                let mask = self.fins(k, h);
+                fins.insert(h, mask);
+                if let Some((first, 3)) = run(mask) {
+                    tops.insert(add(h, DIRS[(first + 4) % 6]));
+                }
+            }
+            let of = |h: Hex| -> Vec<Hex> {
+                (0..6).filter(|i| fins[&h] >> i & 1 == 1).map(|i| add(h, DIRS[i])).collect()
+            };
+            let share = |a: Hex, b: Hex| of(a).iter().any(|f| of(b).contains(f));
+            let under = |h: Hex, top: Hex| run(fins[&h]).is_some_and(|(f, n)| n == 3 && add(h, DIRS[(f + 4) % 6]) == top);
+            let with_top = |g: Hex, top: Hex| {
+                under(g, top)
+                    || DIRS.iter().map(|d| add(top, *d)).any(|m| fins.contains_key(&m) && under(m, top) && share(m, g))
+            };
+            for (&h, &mask) in &fins {
+                for d in DIRS {
+                    let g = add(h, d);
+                    let clash = match fins.get(&g) {
+                        Some(&other) => !share(h, g) && (mask.count_ones(), h) > (other.count_ones(), g),
+                        None => tops.contains(&g) && !with_top(h, g),
+                    };
+                    if clash {
+                        wrong.push((k, h));
+                        break;
+                    }
+                }
+            }
+        }
+        wrong
     }
 }
 
