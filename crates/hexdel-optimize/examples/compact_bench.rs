@@ -27,7 +27,10 @@ fn main() {
         Some("best") => Effort::Best,
         _ => Effort::Standard,
     };
-    let min = args.get(2).and_then(|a| a.parse().ok()).unwrap_or(AngleBounds::EXTENDED.min_deg());
+    let min = args
+        .get(2)
+        .and_then(|a| a.parse().ok())
+        .unwrap_or(AngleBounds::EXTENDED.min_deg());
     let max = 90.0;
     let bounds = AngleBounds::new(min, max).expect("feasible bounds");
     let mut counts: Vec<String> = args.into_iter().skip(3).collect();
@@ -36,7 +39,16 @@ fn main() {
     }
     println!(
         "{:>9} {:>8} {:>8} {:>9} {:>9} {:>6} {:>16} {:>18} {:>16} {:>9}",
-        "input", "start/pt", "tri/pt", "cpu ms/pt", "wall", "rounds", "repairs", "removals", "shakes", "steps"
+        "input",
+        "start/pt",
+        "tri/pt",
+        "cpu ms/pt",
+        "wall",
+        "rounds",
+        "repairs",
+        "removals",
+        "shakes",
+        "steps"
     );
     for count in counts {
         let points = match count.as_str() {
@@ -53,7 +65,14 @@ fn main() {
         let before = mesh.mesh.triangles.len() as f64 / n;
         let mut options = Options::new(bounds, effort);
         let log = |p: hexdel_optimize::Progress| {
-            println!("  {:?} {} {:.3} bad {} cpu {:.4}", p.phase, p.round, p.triangles as f64 / n, p.bad, cpu_seconds() * 1e3 / n);
+            println!(
+                "  {:?} {} {:.3} bad {} cpu {:.4}",
+                p.phase,
+                p.round,
+                p.triangles as f64 / n,
+                p.bad,
+                cpu_seconds() * 1e3 / n
+            );
             true
         };
         if std::env::var("LOG").is_ok() {
@@ -70,12 +89,28 @@ fn main() {
         };
         if std::env::var("SHOW").is_ok() {
             let mut degree = vec![0; result.mesh.vertices.len()];
-            for t in &result.mesh.triangles { for v in t { degree[v.index()] += 1; } }
+            for t in &result.mesh.triangles {
+                for v in t {
+                    degree[v.index()] += 1;
+                }
+            }
             for t in &result.mesh.triangles {
                 let p = t.map(|v| result.mesh.vertices[v.index()]);
-                let a: [f64; 3] = std::array::from_fn(|k| { let (u, w) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]); u.perp_dot(w).atan2(u.dot(w)).to_degrees() });
+                let a: [f64; 3] = std::array::from_fn(|k| {
+                    let (u, w) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+                    u.perp_dot(w).atan2(u.dot(w)).to_degrees()
+                });
                 if a.iter().any(|x| *x < min - 1e-9 || *x > max + 1e-9) {
-                    println!("{:?} at {:.4} angles {:.2?}", t.map(|v| (result.kinds[v.index()] == hexdel_optimize::VertexKind::Fixed, degree[v.index()], v.index())), p[0], a);
+                    println!(
+                        "{:?} at {:.4} angles {:.2?}",
+                        t.map(|v| (
+                            result.kinds[v.index()] == hexdel_optimize::VertexKind::Fixed,
+                            degree[v.index()],
+                            v.index()
+                        )),
+                        p[0],
+                        a
+                    );
                 }
             }
         }
@@ -91,7 +126,11 @@ fn main() {
             format!("{}/{}", s.removals[1], s.removals[0]),
             format!("{}/{}", s.shakes[1], s.shakes[0]),
             s.steps,
-            if bad > 0 { format!(" BAD {bad}") } else { String::new() },
+            if bad > 0 {
+                format!(" BAD {bad}")
+            } else {
+                String::new()
+            },
         );
     }
 }
@@ -100,7 +139,15 @@ fn main() {
 fn cpu_seconds() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // User and system time are the 12th and 13th fields after the name.
-    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace();
-    let ticks: f64 = fields.skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()).sum();
+    let fields = stat
+        .rsplit(')')
+        .next()
+        .unwrap_or_default()
+        .split_whitespace();
+    let ticks: f64 = fields
+        .skip(11)
+        .take(2)
+        .filter_map(|f| f.parse::<f64>().ok())
+        .sum();
     ticks / 100.0
 }

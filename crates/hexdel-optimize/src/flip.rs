@@ -33,7 +33,9 @@ pub(crate) fn flip_patch(mesh: &mut Mesh, patch: &Patch) -> usize {
 }
 
 fn try_flip(mesh: &mut Mesh, patch: &Patch, t: u32, k: usize) -> bool {
-    let Some((u, d)) = mesh.diamond(t, k) else { return false };
+    let Some((u, d)) = mesh.diamond(t, k) else {
+        return false;
+    };
     patch.holds(u) && wants_flip(mesh, d) && mesh.flip(t, k)
 }
 

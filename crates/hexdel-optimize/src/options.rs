@@ -79,13 +79,20 @@ pub struct Options<'a> {
 impl<'a> Options<'a> {
     /// Options without budget and hook.
     pub fn new(bounds: AngleBounds, effort: Effort) -> Self {
-        Self { bounds, effort, ..Self::default() }
+        Self {
+            bounds,
+            effort,
+            ..Self::default()
+        }
     }
 
     /// The same with a wall-clock limit.
     #[must_use]
     pub fn with_budget(self, budget: Duration) -> Self {
-        Self { budget: Some(budget), ..self }
+        Self {
+            budget: Some(budget),
+            ..self
+        }
     }
 
     /// The same with another seed.
@@ -97,7 +104,10 @@ impl<'a> Options<'a> {
     /// The same with a hook.
     #[must_use]
     pub fn with_hook(self, hook: Hook<'a>) -> Self {
-        Self { hook: Some(hook), ..self }
+        Self {
+            hook: Some(hook),
+            ..self
+        }
     }
 }
 

@@ -7,8 +7,8 @@
 //! to either bound, the less room is left for the neighbours.
 
 use crate::angles::Limits;
-use crate::mesh::Mesh;
 use crate::angles::Measure;
+use crate::mesh::Mesh;
 
 /// Holes with more corners are left alone: in bounds above 40 degrees a vertex
 /// has at most nine triangles, and removing one that has more than eight
@@ -31,14 +31,24 @@ pub(crate) struct Refills {
 
 impl Refills {
     pub(crate) fn new() -> Self {
-        let of = (0..=MAX_CORNERS).map(|n| if n < 3 { Vec::new() } else { fans(0, n - 1) }).collect();
+        let of = (0..=MAX_CORNERS)
+            .map(|n| if n < 3 { Vec::new() } else { fans(0, n - 1) })
+            .collect();
         Self { of }
     }
 
     /// The cheapest `keep` refills of the hole with the corners `ring`, in
     /// counter-clockwise order, cheapest first; `closed` says whether
     /// it surrounds the removed vertex or ends at the rim.
-    pub(crate) fn choose(&self, mesh: &Mesh, limits: &Limits, ring: &[u32], closed: bool, keep: usize, out: &mut Vec<(f64, usize)>) {
+    pub(crate) fn choose(
+        &self,
+        mesh: &Mesh,
+        limits: &Limits,
+        ring: &[u32],
+        closed: bool,
+        keep: usize,
+        out: &mut Vec<(f64, usize)>,
+    ) {
         out.clear();
         let n = ring.len();
         let shape = shapes(mesh, limits, ring);
@@ -72,7 +82,14 @@ impl Refills {
 
     /// The triangles of refill `index` of a ring, or none where one of its
     /// diagonals is an edge elsewhere.
-    pub(crate) fn triangles(&self, mesh: &Mesh, ring: &[u32], closed: bool, index: usize, out: &mut Vec<[u32; 3]>) -> bool {
+    pub(crate) fn triangles(
+        &self,
+        mesh: &Mesh,
+        ring: &[u32],
+        closed: bool,
+        index: usize,
+        out: &mut Vec<[u32; 3]>,
+    ) -> bool {
         out.clear();
         let n = ring.len();
         for t in &self.of[n][index] {
@@ -109,7 +126,11 @@ fn fans(a: usize, b: usize) -> Vec<Vec<[u8; 3]>> {
     all
 }
 
-fn shapes(mesh: &Mesh, limits: &Limits, ring: &[u32]) -> [[[f64; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS] {
+fn shapes(
+    mesh: &Mesh,
+    limits: &Limits,
+    ring: &[u32],
+) -> [[[f64; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS] {
     let mut shape = [[[0.0; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS];
     let p = |i: usize| mesh.pos[ring[i] as usize];
     for i in 0..ring.len() {
@@ -128,5 +149,9 @@ pub(crate) fn degree_cost(limits: &Limits, sector: f64, degree: usize) -> f64 {
     let mean = sector / degree as f64;
     // A sector's angle carries the rounding of an arc cosine.
     let room = (mean - limits.min_rad).min(limits.max_rad - mean) + 1e-9;
-    if room < 0.0 { IMPOSSIBLE } else { 1.0 / (room.to_degrees() + 1.0) }
+    if room < 0.0 {
+        IMPOSSIBLE
+    } else {
+        1.0 / (room.to_degrees() + 1.0)
+    }
 }

@@ -45,7 +45,11 @@ use crate::work::Work;
 ///
 /// Near-linear in the number of vertices; each round's cuts cost `n log n`.
 /// Runs on the current rayon thread pool.
-pub fn optimize(mesh: TriMesh, kinds: &[VertexKind], options: &Options<'_>) -> Result<Optimized, OptimizeError> {
+pub fn optimize(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    options: &Options<'_>,
+) -> Result<Optimized, OptimizeError> {
     let vertices = mesh.vertices.len();
     let soup = import(mesh, kinds)?;
     let mut run = Run::new(soup, options);
@@ -87,11 +91,18 @@ impl<'a> Run<'a> {
     fn all(&mut self) -> Option<()> {
         self.repair(0, repair::FIRST_ROUNDS)?;
         if self.options.effort == Effort::Fast {
-            return self.repair(repair::FIRST_ROUNDS, repair::ROUNDS);
+            self.repair(repair::FIRST_ROUNDS, repair::FAST_ROUNDS)?;
+            if self.bad().next().is_none() {
+                return Some(());
+            }
         }
         self.decimate(0, EARLY_PASSES)?;
         self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
+        if self.options.effort == Effort::Fast {
+            return Some(());
+        }
         self.decimate(EARLY_PASSES, PASSES.len())?;
+        self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
         if self.options.effort == Effort::Best {
             for i in 0..SHAKES {
                 self.round(Phase::Shake, i, shake)?;
@@ -149,7 +160,14 @@ impl<'a> Run<'a> {
                 let mut work = Work::new(part.mesh, limits, refills, part.failed, seed);
                 job(&mut work);
                 work.stats.steps = work.patch.steps();
-                (Part { mesh: work.mesh, global: part.global, failed: work.failed }, work.stats)
+                (
+                    Part {
+                        mesh: work.mesh,
+                        global: part.global,
+                        failed: work.failed,
+                    },
+                    work.stats,
+                )
             })
             .collect();
         let mut parts = Vec::with_capacity(done.len());
@@ -163,20 +181,38 @@ impl<'a> Run<'a> {
     }
 
     fn may_go_on(&self, phase: Phase, round: usize) -> bool {
-        let in_time = self.deadline.is_none_or(|(start, budget)| start.elapsed() < budget);
-        let progress = || Progress { phase, round, triangles: self.soup.tris.len(), bad: self.bad().count() };
+        let in_time = self
+            .deadline
+            .is_none_or(|(start, budget)| start.elapsed() < budget);
+        let progress = || Progress {
+            phase,
+            round,
+            triangles: self.soup.tris.len(),
+            bad: self.bad().count(),
+        };
         in_time && self.options.hook.is_none_or(|hook| hook(progress()))
     }
 
     fn finish(self, vertices: usize) -> Result<Optimized, OptimizeError> {
         let bad: Vec<usize> = self.bad().collect();
-        let corners = bad.first().map(|&t| self.soup.tris[t].map(|v| self.soup.pos[v as usize]));
+        let corners = bad
+            .first()
+            .map(|&t| self.soup.tris[t].map(|v| self.soup.pos[v as usize]));
         let (mesh, kinds, map) = export(self.soup, vertices);
-        let best = Optimized { mesh, vertices: map, kinds, stats: self.stats, finished: !self.stopped };
+        let best = Optimized {
+            mesh,
+            vertices: map,
+            kinds,
+            stats: self.stats,
+            finished: !self.stopped,
+        };
         match corners {
             None => Ok(best),
-            Some(corners) => Err(OptimizeError::Unreached { bad: bad.len(), corners, best: Box::new(best) }),
+            Some(corners) => Err(OptimizeError::Unreached {
+                bad: bad.len(),
+                corners,
+                best: Box::new(best),
+            }),
         }
     }
 }
-

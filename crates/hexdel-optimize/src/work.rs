@@ -46,7 +46,13 @@ pub(crate) struct Scratch {
 }
 
 impl<'a> Work<'a> {
-    pub(crate) fn new(mesh: Mesh, limits: &'a Limits, refills: &'a Refills, failed: Vec<u8>, seed: u64) -> Self {
+    pub(crate) fn new(
+        mesh: Mesh,
+        limits: &'a Limits,
+        refills: &'a Refills,
+        failed: Vec<u8>,
+        seed: u64,
+    ) -> Self {
         Self {
             mesh,
             limits,
@@ -83,7 +89,10 @@ impl<'a> Work<'a> {
     /// flips, or the effort is spent. Motion comes first: flipping first would
     /// undo the choice of degrees that made the patch promising.
     pub(crate) fn solve(&mut self, effort: Effort) -> State {
-        let mut state = State { energy: f64::INFINITY, solved: false };
+        let mut state = State {
+            energy: f64::INFINITY,
+            solved: false,
+        };
         for turn in 0..effort.turns {
             if turn > 0 {
                 self.patch.store(&mut self.mesh);
@@ -114,8 +123,16 @@ impl<'a> Work<'a> {
     }
 
     fn patch_is_delaunay(&self) -> bool {
-        let wrong = |t: u32, k: usize| self.mesh.diamond(t, k).is_some_and(|(_, d)| wants_flip(&self.mesh, d));
-        !self.patch.triangles().iter().any(|&t| (0..3).any(|k| wrong(t, k)))
+        let wrong = |t: u32, k: usize| {
+            self.mesh
+                .diamond(t, k)
+                .is_some_and(|(_, d)| wants_flip(&self.mesh, d))
+        };
+        !self
+            .patch
+            .triangles()
+            .iter()
+            .any(|&t| (0..3).any(|k| wrong(t, k)))
     }
 
     /// Makes the changes final.

@@ -4,7 +4,10 @@
 //! The product's grid engine lives in other crates; this one only has to be
 //! right and short.
 
-#![allow(dead_code, reason = "each user of this support module needs a part of it")]
+#![allow(
+    dead_code,
+    reason = "each user of this support module needs a part of it"
+)]
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -70,7 +73,9 @@ impl Grid {
 
     fn exists(&self, k: usize, h: Hex) -> bool {
         if k == 0 {
-            return h.0.abs() <= self.radius && h.1.abs() <= self.radius && (h.0 + h.1).abs() <= self.radius;
+            return h.0.abs() <= self.radius
+                && h.1.abs() <= self.radius
+                && (h.0 + h.1).abs() <= self.radius;
         }
         let [a, b] = parents(h);
         self.is_split(k - 1, a) && self.is_split(k - 1, b)
@@ -159,7 +164,10 @@ impl Grid {
             if rule == Rule::C {
                 let near: Vec<Cell> = occupied
                     .keys()
-                    .filter(|(k, h)| DIRS.iter().any(|&d| occupied.contains_key(&(*k, add(*h, d)))))
+                    .filter(|(k, h)| {
+                        DIRS.iter()
+                            .any(|&d| occupied.contains_key(&(*k, add(*h, d))))
+                    })
                     .copied()
                     .collect();
                 for (k, h) in &near {
@@ -175,7 +183,13 @@ impl Grid {
                     .iter()
                     .filter(|(_, i)| on(**i))
                     .map(|(c, _)| c)
-                    .filter(|(k, h)| self.fins(*k, *h) != 0 || !matches!(rule, Rule::E(_)) && DIRS.iter().any(|&d| occupied.contains_key(&(*k, add(*h, d)))))
+                    .filter(|(k, h)| {
+                        self.fins(*k, *h) != 0
+                            || !matches!(rule, Rule::E(_))
+                                && DIRS
+                                    .iter()
+                                    .any(|&d| occupied.contains_key(&(*k, add(*h, d))))
+                    })
                     .copied()
                     .collect();
                 let coarse: Vec<Cell> = occupied
@@ -211,14 +225,21 @@ impl Grid {
 
     /// Occupied leaves with another site within `share` of their spacing, in
     /// a leaf of their level or the next coarser one.
-    fn too_close(&self, points: &[DVec2], occupied: &BTreeMap<Cell, usize>, share: f64) -> Vec<Cell> {
+    fn too_close(
+        &self,
+        points: &[DVec2],
+        occupied: &BTreeMap<Cell, usize>,
+        share: f64,
+    ) -> Vec<Cell> {
         let mut near = Vec::new();
         for (&(k, h), &i) in occupied {
             let s = self.spacing / (1u64 << k) as f64;
             for d in 0..12 {
                 let a = d as f64 * std::f64::consts::PI / 6.0;
                 let probe = points[i] + share * s * DVec2::new(a.cos(), a.sin());
-                let Ok(cell) = self.locate(probe) else { continue };
+                let Ok(cell) = self.locate(probe) else {
+                    continue;
+                };
                 let other = occupied.get(&cell).filter(|j| **j != i);
                 if other.is_some_and(|&j| points[j].distance(points[i]) < share * s) {
                     near.push((k, h));
@@ -230,12 +251,16 @@ impl Grid {
     }
 
     fn fins(&self, k: usize, h: Hex) -> u8 {
-        (0..6).filter(|&i| self.is_split(k, add(h, DIRS[i]))).fold(0, |m, i| m | 1 << i)
+        (0..6)
+            .filter(|&i| self.is_split(k, add(h, DIRS[i])))
+            .fold(0, |m, i| m | 1 << i)
     }
 
     /// Leaves at level `k` next to a subdivided hexagon.
     fn fronts(&self, k: usize) -> BTreeSet<Hex> {
-        let Some(split) = self.split.get(k) else { return BTreeSet::new() };
+        let Some(split) = self.split.get(k) else {
+            return BTreeSet::new();
+        };
         split
             .iter()
             .flat_map(|&h| DIRS.map(|d| add(h, d)))
@@ -293,7 +318,11 @@ impl Grid {
         for k in 0..self.split.len() {
             let mut fins: BTreeMap<Hex, u8> = BTreeMap::new();
             let mut tops: BTreeSet<Hex> = BTreeSet::new();
-            for h in self.fronts(k).into_iter().filter(|h| !occupied.contains_key(&(k, *h))) {
+            for h in self
+                .fronts(k)
+                .into_iter()
+                .filter(|h| !occupied.contains_key(&(k, *h)))
+            {
                 let mask = self.fins(k, h);
                 fins.insert(h, mask);
                 if let Some((first, 3)) = run(mask) {
@@ -301,19 +330,29 @@ impl Grid {
                 }
             }
             let of = |h: Hex| -> Vec<Hex> {
-                (0..6).filter(|i| fins[&h] >> i & 1 == 1).map(|i| add(h, DIRS[i])).collect()
+                (0..6)
+                    .filter(|i| fins[&h] >> i & 1 == 1)
+                    .map(|i| add(h, DIRS[i]))
+                    .collect()
             };
             let share = |a: Hex, b: Hex| of(a).iter().any(|f| of(b).contains(f));
-            let under = |h: Hex, top: Hex| run(fins[&h]).is_some_and(|(f, n)| n == 3 && add(h, DIRS[(f + 4) % 6]) == top);
+            let under = |h: Hex, top: Hex| {
+                run(fins[&h]).is_some_and(|(f, n)| n == 3 && add(h, DIRS[(f + 4) % 6]) == top)
+            };
             let with_top = |g: Hex, top: Hex| {
                 under(g, top)
-                    || DIRS.iter().map(|d| add(top, *d)).any(|m| fins.contains_key(&m) && under(m, top) && share(m, g))
+                    || DIRS
+                        .iter()
+                        .map(|d| add(top, *d))
+                        .any(|m| fins.contains_key(&m) && under(m, top) && share(m, g))
             };
             for (&h, &mask) in &fins {
                 for d in DIRS {
                     let g = add(h, d);
                     let clash = match fins.get(&g) {
-                        Some(&other) => !share(h, g) && (mask.count_ones(), h) > (other.count_ones(), g),
+                        Some(&other) => {
+                            !share(h, g) && (mask.count_ones(), h) > (other.count_ones(), g)
+                        }
                         None => tops.contains(&g) && !with_top(h, g),
                     };
                     if clash {
@@ -423,7 +462,9 @@ impl Emit<'_> {
             let n = add(h, DIRS[i % 6]);
             self.triple(k, n).is_some_and(|t| t.top == h).then_some(n)
         };
-        let mask = (0..6).filter(|&i| below(i).is_some()).fold(0u8, |m, i| m | 1 << i);
+        let mask = (0..6)
+            .filter(|&i| below(i).is_some())
+            .fold(0u8, |m, i| m | 1 << i);
         let start = (0..6).find(|&i| mask >> i & 1 == 1 && mask >> ((i + 5) % 6) & 1 == 0);
         let Some(start) = start else { return c };
         let at = |i: usize| self.grid.centre(k, add(h, DIRS[(start + i) % 6]));
@@ -456,8 +497,10 @@ impl Emit<'_> {
                     }
                 }
             }
-            let triples: Vec<(Hex, Triple)> =
-                self.triples.get(k).map_or(Vec::new(), |m| m.iter().map(|(h, t)| (*h, *t)).collect());
+            let triples: Vec<(Hex, Triple)> = self
+                .triples
+                .get(k)
+                .map_or(Vec::new(), |m| m.iter().map(|(h, t)| (*h, *t)).collect());
             for (h, t) in triples {
                 self.star(k, h, t);
             }
@@ -488,7 +531,10 @@ impl Emit<'_> {
                 self.dual.tris.push(t);
             }
             2 => {
-                let i = split.iter().position(|s| !*s).expect("one corner is a leaf");
+                let i = split
+                    .iter()
+                    .position(|s| !*s)
+                    .expect("one corner is a leaf");
                 let (h, a, b) = (c[i], c[(i + 1) % 3], c[(i + 2) % 3]);
                 let m = self.vertex(k + 1, add(a, b));
                 let (h, a, b) = (self.vertex(k, h), self.vertex(k, a), self.vertex(k, b));
@@ -509,7 +555,11 @@ impl Emit<'_> {
         let p2 = self.fin_point(k, h, a[2], next.then_some(g_r), prev || next);
         let c = self.grid.centre(k, h);
         let far = self.grid.centre(k, a[1]);
-        let at = if prev || next { c * 0.6 + far * 0.4 } else { c * 0.4 + far * 0.6 };
+        let at = if prev || next {
+            c * 0.6 + far * 0.4
+        } else {
+            c * 0.4 + far * 0.6
+        };
         let p1 = self.dual.id((k, h, 1), at);
         let m01 = self.vertex(k + 1, add(a[0], a[1]));
         let m12 = self.vertex(k + 1, add(a[1], a[2]));
@@ -545,7 +595,14 @@ impl Emit<'_> {
         self.dual.tris.extend(out);
     }
 
-    fn fin_point(&mut self, k: usize, h: Hex, fin: Hex, shared: Option<Hex>, in_run: bool) -> usize {
+    fn fin_point(
+        &mut self,
+        k: usize,
+        h: Hex,
+        fin: Hex,
+        shared: Option<Hex>,
+        in_run: bool,
+    ) -> usize {
         let a = self.grid.centre(k, fin);
         let hat = self.relocated(k, h);
         let at = match shared {
@@ -555,7 +612,11 @@ impl Emit<'_> {
         };
         // The fin point of two hexagons is one vertex: key it by the edge.
         let key = match shared {
-            Some(o) => (k + 1, add(h.min(o), h.max(o)), 4 + u8::from(cross(h, o, fin))),
+            Some(o) => (
+                k + 1,
+                add(h.min(o), h.max(o)),
+                4 + u8::from(cross(h, o, fin)),
+            ),
             None => (k + 1, add(h, fin), 2),
         };
         self.dual.id(key, at)
@@ -575,12 +636,24 @@ pub fn start(points: &[DVec2], rule: Rule) -> Start {
 
 /// As `start`, with rule B at the sites that `strict` marks.
 pub fn start_where(points: &[DVec2], rule: Rule, strict: &[bool]) -> Start {
-    let (lo, hi) = points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+    let (lo, hi) = points
+        .iter()
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), &p| {
+            (l.min(p), h.max(p))
+        });
     let half = 0.5 * (hi - lo).length().max(1e-3);
-    let mut grid = Grid { split: Vec::new(), radius: 12, spacing: 2.2 * half, origin: 0.5 * (lo + hi) };
+    let mut grid = Grid {
+        split: Vec::new(),
+        radius: 12,
+        spacing: 2.2 * half,
+        origin: 0.5 * (lo + hi),
+    };
     let occupied = grid.place(points, rule, strict);
     let reach = grid.split.first().map_or(0, |s| {
-        s.iter().map(|h| h.0.abs().max(h.1.abs()).max((h.0 + h.1).abs())).max().unwrap_or(0)
+        s.iter()
+            .map(|h| h.0.abs().max(h.1.abs()).max((h.0 + h.1).abs()))
+            .max()
+            .unwrap_or(0)
     });
     grid.radius = reach + 3;
     let mut triples = Vec::new();
@@ -588,12 +661,23 @@ pub fn start_where(points: &[DVec2], rule: Rule, strict: &[bool]) -> Start {
         let mut m = BTreeMap::new();
         for h in grid.fronts(k) {
             if let Some((first, 3)) = run(grid.fins(k, h)) {
-                m.insert(h, Triple { first, top: add(h, DIRS[(first + 4) % 6]) });
+                m.insert(
+                    h,
+                    Triple {
+                        first,
+                        top: add(h, DIRS[(first + 4) % 6]),
+                    },
+                );
             }
         }
         triples.push(m);
     }
-    let mut emit = Emit { grid: &grid, occupied: &occupied, triples, dual: Dual::default() };
+    let mut emit = Emit {
+        grid: &grid,
+        occupied: &occupied,
+        triples,
+        dual: Dual::default(),
+    };
     emit.walk();
     let dual = emit.dual;
     finish(points, &grid, &occupied, &dual)
@@ -617,8 +701,18 @@ fn finish(points: &[DVec2], grid: &Grid, occupied: &BTreeMap<Cell, usize>, dual:
             kinds.push(rim_kind(grid, keys[i]));
         }
     }
-    let triangles = dual.tris.iter().map(|t| t.map(|v| VertexId::new(id[v]))).collect();
-    Start { mesh: TriMesh { vertices, triangles }, kinds }
+    let triangles = dual
+        .tris
+        .iter()
+        .map(|t| t.map(|v| VertexId::new(id[v])))
+        .collect();
+    Start {
+        mesh: TriMesh {
+            vertices,
+            triangles,
+        },
+        kinds,
+    }
 }
 
 fn rim_kind(grid: &Grid, (k, (q, r), tag): (usize, Hex, u8)) -> VertexKind {

@@ -22,7 +22,12 @@ pub fn uniform(n: usize, seed: u64) -> Vec<DVec2> {
 
 pub fn line(n: usize, seed: u64) -> Vec<DVec2> {
     let mut r = Random(seed);
-    (0..n).map(|_| { let t = r.unit(); DVec2::new(t, 0.3 + 0.37 * t) }).collect()
+    (0..n)
+        .map(|_| {
+            let t = r.unit();
+            DVec2::new(t, 0.3 + 0.37 * t)
+        })
+        .collect()
 }
 
 pub fn two_close() -> Vec<DVec2> {
@@ -30,11 +35,18 @@ pub fn two_close() -> Vec<DVec2> {
 }
 
 pub fn grid(n: usize) -> Vec<DVec2> {
-    (0..n * n).map(|i| DVec2::new((i % n) as f64, (i / n) as f64)).collect()
+    (0..n * n)
+        .map(|i| DVec2::new((i % n) as f64, (i / n) as f64))
+        .collect()
 }
 
 pub fn circle(n: usize) -> Vec<DVec2> {
-    (0..n).map(|i| { let a = i as f64 * 2.399_963; DVec2::new(a.cos(), a.sin()) }).collect()
+    (0..n)
+        .map(|i| {
+            let a = i as f64 * 2.399_963;
+            DVec2::new(a.cos(), a.sin())
+        })
+        .collect()
 }
 
 pub fn pairs(n: usize, gap: f64, seed: u64) -> Vec<DVec2> {
