@@ -1,7 +1,11 @@
-//! Prints what the optimiser does to uniform random points: triangles per
-//! point, CPU time per point, attempts and successes.
+//! Prints what the optimiser does: triangles per point, CPU time per point,
+//! attempts and successes.
 //!
-//! `cargo run --release -p hexdel-optimize --example compact_bench -- [start] [effort] [min] [counts..]`
+//! `compact_bench [start] [effort] [min] [input..]` where start is `b`, `c`,
+//! `d` or a share of the spacing below which occupied neighbours are refined,
+//! effort `fast`, `standard` or `best`, and an input a number of uniform
+//! points or one of `line two grid circle cluster pairs`. With `LOG` set in the
+//! environment, one line for each round.
 
 #![allow(clippy::print_stdout, reason = "a program that prints")]
 
@@ -9,8 +13,8 @@ mod support;
 
 use std::time::Instant;
 
-use hexdel_geom::AngleBounds;
-use hexdel_optimize::{Effort, OptimizeError, Options, optimize};
+use hexdel_geom::{AngleBounds, DVec2};
+use hexdel_optimize::{Effort, OptimizeError, Options, Progress, Stats, optimize};
 use support::{Rule, points, start};
 
 fn main() {
@@ -19,7 +23,7 @@ fn main() {
         Some("b") => Rule::B,
         Some("c") => Rule::C,
         Some("d") => Rule::D,
-        Some(x) => x.parse().map_or(Rule::E(0.6), Rule::E),
+        Some(share) => share.parse().map_or(Rule::E(0.6), Rule::E),
         None => Rule::E(0.6),
     };
     let effort = match args.get(1).map(String::as_str) {
@@ -27,118 +31,93 @@ fn main() {
         Some("best") => Effort::Best,
         _ => Effort::Standard,
     };
+    let extended = AngleBounds::EXTENDED;
     let min = args
         .get(2)
         .and_then(|a| a.parse().ok())
-        .unwrap_or(AngleBounds::EXTENDED.min_deg());
-    let max = 90.0;
-    let bounds = AngleBounds::new(min, max).expect("feasible bounds");
-    let mut counts: Vec<String> = args.into_iter().skip(3).collect();
-    if counts.is_empty() {
-        counts = ["100", "1000", "10000"].map(String::from).to_vec();
+        .unwrap_or(extended.min_deg());
+    let bounds = AngleBounds::new(min, 90.0).expect("feasible bounds");
+    let mut inputs: Vec<String> = args.into_iter().skip(3).collect();
+    if inputs.is_empty() {
+        inputs = ["100", "1000", "10000"].map(String::from).to_vec();
     }
     println!(
-        "{:>9} {:>8} {:>8} {:>9} {:>9} {:>6} {:>16} {:>18} {:>16} {:>9}",
-        "input",
-        "start/pt",
-        "tri/pt",
-        "cpu ms/pt",
-        "wall",
-        "rounds",
-        "repairs",
-        "removals",
-        "shakes",
-        "steps"
+        "input: start/pt, triangles/pt, CPU ms/pt, rounds; successes/attempts of repairs, removals, shakes; steps"
     );
-    for count in counts {
-        let points = match count.as_str() {
-            "line" => points::line(100, 1),
-            "two" => points::two_close(),
-            "grid" => points::grid(10),
-            "circle" => points::circle(100),
-            "cluster" => points::clusters(1000, 1),
-            "pairs" => points::pairs(50, 1e-4, 1),
-            n => points::uniform(n.parse().expect("a count"), 1),
-        };
-        let mesh = start(&points, rule);
-        let n = points.len() as f64;
-        let before = mesh.mesh.triangles.len() as f64 / n;
-        let mut options = Options::new(bounds, effort);
-        let log = |p: hexdel_optimize::Progress| {
-            println!(
-                "  {:?} {} {:.3} bad {} cpu {:.4}",
-                p.phase,
-                p.round,
-                p.triangles as f64 / n,
-                p.bad,
-                cpu_seconds() * 1e3 / n
-            );
-            true
-        };
-        if std::env::var("LOG").is_ok() {
-            options = options.with_hook(&log);
-        }
-        let (wall, cpu) = (Instant::now(), cpu_seconds());
-        let (result, bad) = match optimize(mesh.mesh, &mesh.kinds, &options) {
-            Ok(o) => (o, 0),
-            Err(OptimizeError::Unreached { best, bad, .. }) => (*best, bad),
-            Err(e) => {
-                println!("{count:>9} {e}");
-                continue;
-            }
-        };
-        if std::env::var("SHOW").is_ok() {
-            let mut degree = vec![0; result.mesh.vertices.len()];
-            for t in &result.mesh.triangles {
-                for v in t {
-                    degree[v.index()] += 1;
-                }
-            }
-            for t in &result.mesh.triangles {
-                let p = t.map(|v| result.mesh.vertices[v.index()]);
-                let a: [f64; 3] = std::array::from_fn(|k| {
-                    let (u, w) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-                    u.perp_dot(w).atan2(u.dot(w)).to_degrees()
-                });
-                if a.iter().any(|x| *x < min - 1e-9 || *x > max + 1e-9) {
-                    println!(
-                        "{:?} at {:.4} angles {:.2?}",
-                        t.map(|v| (
-                            result.kinds[v.index()] == hexdel_optimize::VertexKind::Fixed,
-                            degree[v.index()],
-                            v.index()
-                        )),
-                        p[0],
-                        a
-                    );
-                }
-            }
-        }
-        let (wall, cpu) = (wall.elapsed().as_secs_f64(), cpu_seconds() - cpu);
-        let s = result.stats;
-        println!(
-            "{count:>9} {before:8.2} {:8.3} {:9.4} {:8.2}s {:>6} {:>16} {:>18} {:>16} {:>9}{}",
-            result.mesh.triangles.len() as f64 / n,
-            cpu * 1e3 / n,
-            wall,
-            s.rounds,
-            format!("{}/{}", s.repairs[1], s.repairs[0]),
-            format!("{}/{}", s.removals[1], s.removals[0]),
-            format!("{}/{}", s.shakes[1], s.shakes[0]),
-            s.steps,
-            if bad > 0 {
-                format!(" BAD {bad}")
-            } else {
-                String::new()
-            },
-        );
+    for name in inputs {
+        run(&name, rule, &Options::new(bounds, effort));
     }
+}
+
+fn input(name: &str) -> Vec<DVec2> {
+    match name {
+        "line" => points::line(100, 1),
+        "two" => points::two_close(),
+        "grid" => points::grid(10),
+        "circle" => points::circle(100),
+        "cluster" => points::clusters(1000, 1),
+        "pairs" => points::pairs(50, 1e-4, 1),
+        n => points::uniform(n.parse().expect("a count"), 1),
+    }
+}
+
+fn run(name: &str, rule: Rule, options: &Options<'_>) {
+    let points = input(name);
+    let start = start(&points, rule);
+    let n = points.len() as f64;
+    let before = start.mesh.triangles.len() as f64 / n;
+    let cpu = cpu_seconds();
+    let ms = || (cpu_seconds() - cpu) * 1e3 / n;
+    let log = |p: Progress| {
+        println!(
+            "  {:?} {}: {:.3}, {} bad, {:.4} ms/pt",
+            p.phase,
+            p.round,
+            p.triangles as f64 / n,
+            p.bad,
+            ms()
+        );
+        true
+    };
+    let logged = options.with_hook(&log);
+    let options = if std::env::var_os("LOG").is_some() {
+        &logged
+    } else {
+        options
+    };
+    let wall = Instant::now();
+    let (result, bad) = match optimize(start.mesh, &start.kinds, options) {
+        Ok(result) => (result, 0),
+        Err(OptimizeError::Unreached { best, bad, .. }) => (*best, bad),
+        Err(error) => return println!("{name}: {error}"),
+    };
+    let Stats {
+        rounds,
+        repairs,
+        removals,
+        shakes,
+        steps,
+        ..
+    } = result.stats;
+    println!(
+        "{name}: {before:.2}, {:.3}, {:.4}, {rounds}; {}/{} {}/{} {}/{}; {steps}; wall {:.2} s, {bad} bad",
+        result.mesh.triangles.len() as f64 / n,
+        ms(),
+        repairs[1],
+        repairs[0],
+        removals[1],
+        removals[0],
+        shakes[1],
+        shakes[0],
+        wall.elapsed().as_secs_f64(),
+    );
 }
 
 /// CPU time of this process so far; zero where the system does not tell.
 fn cpu_seconds() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // User and system time are the 12th and 13th fields after the name.
+    // User and system time are the 12th and 13th fields after the name, in
+    // ticks of a hundredth of a second.
     let fields = stat
         .rsplit(')')
         .next()

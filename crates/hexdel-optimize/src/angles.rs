@@ -144,7 +144,7 @@ impl Limits {
     /// The corner farthest below the target and the one farthest above, each
     /// with the sine of its distance times its sides' lengths, negative.
     #[inline]
-    pub(crate) fn outside(&self, m: &Measure) -> (Option<(usize, f64)>, Option<(usize, f64)>) {
+    pub(crate) fn outside(&self, m: &Measure) -> (Excess, Excess) {
         let (mut max, mut min) = (0, 0);
         for k in 1..3 {
             if m.dot[k] > m.dot[max] {
@@ -182,6 +182,10 @@ impl Limits {
         (0..3).map(|i| self.residual(m, i)).map(|r| r * r).sum()
     }
 }
+
+/// A corner outside the target, and the sine of its distance times its sides'
+/// lengths, negative.
+type Excess = Option<(usize, f64)>;
 
 /// Cross product (twice the signed area) and the dot products at the corners
 /// of a triangle.

@@ -40,7 +40,7 @@ impl Action {
                 }
             }
             Self::Insert { disc, len, .. } => {
-                verts.extend(outline(mesh, &disc[..len]).unwrap_or_default())
+                verts.extend(outline(mesh, &disc[..len]).unwrap_or_default());
             }
         }
     }
@@ -101,7 +101,7 @@ impl Finder<'_> {
     fn all_insertions(&mut self, t: u32) {
         let beyond = self.mesh.tri[t as usize].n;
         for n in beyond.into_iter().filter(|n| *n != NONE) {
-            self.insertions(&[t, n]);
+            self.insertions([t, n]);
         }
         if !beyond.contains(&NONE) {
             self.insertion(&[t, beyond[0], beyond[1], beyond[2]]);
@@ -181,9 +181,9 @@ impl Finder<'_> {
     }
 
     /// All discs that add one to three neighbours to `base`.
-    fn insertions(&mut self, base: &[u32; 2]) {
+    fn insertions(&mut self, base: [u32; 2]) {
         let mut beyond = Vec::new();
-        for &t in base {
+        for t in base {
             for n in self.mesh.tri[t as usize].n {
                 if n != NONE && !base.contains(&n) && !beyond.contains(&n) {
                     beyond.push(n);

@@ -126,6 +126,7 @@ fn fans(a: usize, b: usize) -> Vec<Vec<[u8; 3]>> {
     all
 }
 
+#[allow(clippy::needless_range_loop, reason = "the three indices are one key")]
 fn shapes(
     mesh: &Mesh,
     limits: &Limits,

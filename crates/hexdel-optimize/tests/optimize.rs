@@ -3,7 +3,7 @@
 #[path = "../examples/support/mod.rs"]
 mod support;
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
@@ -37,19 +37,19 @@ fn angles(mesh: &TriMesh) -> (f64, f64) {
 
 /// Everything that holds for any result, whether all angles hold or not.
 fn check_mesh(before: &Start, after: &Optimized) {
-    let mut sides = BTreeMap::new();
+    let mut sides = BTreeSet::new();
     for t in &after.mesh.triangles {
         for k in 0..3 {
             let side = (t[k], t[(k + 1) % 3]);
-            assert!(sides.insert(side, ()).is_none(), "side {side:?} twice");
+            assert!(sides.insert(side), "side {side:?} twice");
         }
     }
     let used: usize = after.mesh.vertices.len();
     let rim = sides
-        .keys()
-        .filter(|(a, b)| !sides.contains_key(&(*b, *a)))
+        .iter()
+        .filter(|(a, b)| !sides.contains(&(*b, *a)))
         .count();
-    let edges = (sides.len() + rim) / 2;
+    let edges = usize::midpoint(sides.len(), rim);
     assert_eq!(used + after.mesh.triangles.len(), edges + 1, "a disc");
     let (a, b) = (area(&before.mesh), area(&after.mesh));
     assert!((a - b).abs() < 1e-9 * a, "area {a} {b}");
@@ -245,7 +245,7 @@ fn bad_input_is_named() {
     assert!(
         run(&|m, k| {
             m.vertices.push(DVec2::ZERO);
-            k.push(VertexKind::Free)
+            k.push(VertexKind::Free);
         })
         .starts_with("vertex 5 at")
     );

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use hexdel_optimize::VertexKind;
 
-pub mod points;
+pub(crate) mod points;
 
 /// A hexagon address on one level's lattice.
 type Hex = (i64, i64);
@@ -29,7 +29,7 @@ fn add(a: Hex, b: Hex) -> Hex {
 
 /// Which occupied hexagons are kept apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rule {
+pub(crate) enum Rule {
     /// One point per leaf.
     D,
     /// No two occupied leaves are neighbours.
@@ -43,9 +43,9 @@ pub enum Rule {
 }
 
 /// A start mesh with the kinds of its vertices; the sites come first.
-pub struct Start {
-    pub mesh: TriMesh,
-    pub kinds: Vec<VertexKind>,
+pub(crate) struct Start {
+    pub(crate) mesh: TriMesh,
+    pub(crate) kinds: Vec<VertexKind>,
 }
 
 struct Grid {
@@ -235,7 +235,7 @@ impl Grid {
         for (&(k, h), &i) in occupied {
             let s = self.spacing / (1u64 << k) as f64;
             for d in 0..12 {
-                let a = d as f64 * std::f64::consts::PI / 6.0;
+                let a = f64::from(d) * std::f64::consts::PI / 6.0;
                 let probe = points[i] + share * s * DVec2::new(a.cos(), a.sin());
                 let Ok(cell) = self.locate(probe) else {
                     continue;
@@ -630,12 +630,12 @@ fn cross(a: Hex, b: Hex, c: Hex) -> bool {
 }
 
 /// The start mesh of `points` under `rule`; the sites are the first vertices.
-pub fn start(points: &[DVec2], rule: Rule) -> Start {
+pub(crate) fn start(points: &[DVec2], rule: Rule) -> Start {
     start_where(points, rule, &[])
 }
 
 /// As `start`, with rule B at the sites that `strict` marks.
-pub fn start_where(points: &[DVec2], rule: Rule, strict: &[bool]) -> Start {
+pub(crate) fn start_where(points: &[DVec2], rule: Rule, strict: &[bool]) -> Start {
     let (lo, hi) = points
         .iter()
         .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), &p| {

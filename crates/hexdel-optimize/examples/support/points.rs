@@ -3,10 +3,10 @@
 use hexdel_geom::DVec2;
 
 /// The splitmix64 generator.
-pub struct Random(pub u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -15,12 +15,12 @@ impl Random {
     }
 }
 
-pub fn uniform(n: usize, seed: u64) -> Vec<DVec2> {
+pub(crate) fn uniform(n: usize, seed: u64) -> Vec<DVec2> {
     let mut r = Random(seed);
     (0..n).map(|_| DVec2::new(r.unit(), r.unit())).collect()
 }
 
-pub fn line(n: usize, seed: u64) -> Vec<DVec2> {
+pub(crate) fn line(n: usize, seed: u64) -> Vec<DVec2> {
     let mut r = Random(seed);
     (0..n)
         .map(|_| {
@@ -30,17 +30,17 @@ pub fn line(n: usize, seed: u64) -> Vec<DVec2> {
         .collect()
 }
 
-pub fn two_close() -> Vec<DVec2> {
+pub(crate) fn two_close() -> Vec<DVec2> {
     vec![DVec2::new(0.0, 0.0), DVec2::new(0.02, 0.0)]
 }
 
-pub fn grid(n: usize) -> Vec<DVec2> {
+pub(crate) fn grid(n: usize) -> Vec<DVec2> {
     (0..n * n)
         .map(|i| DVec2::new((i % n) as f64, (i / n) as f64))
         .collect()
 }
 
-pub fn circle(n: usize) -> Vec<DVec2> {
+pub(crate) fn circle(n: usize) -> Vec<DVec2> {
     (0..n)
         .map(|i| {
             let a = i as f64 * 2.399_963;
@@ -49,24 +49,24 @@ pub fn circle(n: usize) -> Vec<DVec2> {
         .collect()
 }
 
-pub fn pairs(n: usize, gap: f64, seed: u64) -> Vec<DVec2> {
+pub(crate) fn pairs(n: usize, gap: f64, seed: u64) -> Vec<DVec2> {
     let mut r = Random(seed);
     (0..n)
         .flat_map(|_| {
             let p = DVec2::new(r.unit(), r.unit());
-            let a = r.unit() * 6.28;
+            let a = r.unit() * std::f64::consts::TAU;
             [p, p + gap * DVec2::new(a.cos(), a.sin())]
         })
         .collect()
 }
 
-pub fn clusters(n: usize, seed: u64) -> Vec<DVec2> {
+pub(crate) fn clusters(n: usize, seed: u64) -> Vec<DVec2> {
     let mut r = Random(seed);
     let centres: Vec<DVec2> = (0..5).map(|_| DVec2::new(r.unit(), r.unit())).collect();
     (0..n)
         .map(|i| {
             let s = 0.2 * r.unit() * r.unit() * r.unit();
-            let a = r.unit() * 6.28;
+            let a = r.unit() * std::f64::consts::TAU;
             centres[i % 5] + s * DVec2::new(a.cos(), a.sin())
         })
         .collect()

@@ -1,8 +1,6 @@
 //! The changes of topology: all are one operation, the replacement of a few
 //! triangles by others with the same outline.
 
-use hexdel_geom::DVec2;
-
 use super::{Mesh, Motion, NONE, Tri};
 
 /// One directed side of the outline and what lies beyond it.
