@@ -60,8 +60,8 @@ pub(crate) fn step(round: usize) -> Step {
     }
 }
 
-/// Rounds that come before removals: motion and the nearest changes.
-pub(crate) const FIRST_ROUNDS: usize = 4;
+/// Rounds that come before removals: motion alone.
+pub(crate) const FIRST_ROUNDS: usize = 3;
 
 /// Rounds before removals when no others are wanted.
 pub(crate) const FAST_ROUNDS: usize = 11;

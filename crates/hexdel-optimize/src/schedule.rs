@@ -60,6 +60,10 @@ pub fn optimize(
 /// Passes of removals before the last repairs.
 const EARLY_PASSES: usize = 6;
 
+/// Passes of removals at standard effort: the later ones take half as long
+/// again for 3 to 4 % fewer triangles.
+const STANDARD_PASSES: usize = 10;
+
 /// The state between rounds.
 struct Run<'a> {
     soup: Soup,
@@ -101,9 +105,10 @@ impl<'a> Run<'a> {
         if self.options.effort == Effort::Fast {
             return Some(());
         }
-        self.decimate(EARLY_PASSES, PASSES.len())?;
+        let best = self.options.effort == Effort::Best;
+        self.decimate(EARLY_PASSES, if best { PASSES.len() } else { STANDARD_PASSES })?;
         self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
-        if self.options.effort == Effort::Best {
+        if best {
             for i in 0..SHAKES {
                 self.round(Phase::Shake, i, shake)?;
             }
