@@ -67,7 +67,7 @@ pub(crate) const FIRST_ROUNDS: usize = 3;
 pub(crate) const FAST_ROUNDS: usize = 11;
 
 /// Rounds after which a mesh is given up.
-pub(crate) const ROUNDS: usize = 43;
+pub(crate) const ROUNDS: usize = 31;
 
 /// Energy has to fall below this share for an unsolved patch to be kept.
 const KEEP_BELOW: f64 = 0.9;

@@ -106,7 +106,10 @@ impl<'a> Run<'a> {
             return Some(());
         }
         let best = self.options.effort == Effort::Best;
-        self.decimate(EARLY_PASSES, if best { PASSES.len() } else { STANDARD_PASSES })?;
+        self.decimate(
+            EARLY_PASSES,
+            if best { PASSES.len() } else { STANDARD_PASSES },
+        )?;
         self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
         if best {
             for i in 0..SHAKES {
