@@ -30,8 +30,8 @@ use crate::work::Work;
 ///
 /// In the mesh returned every angle is inside the bounds (by 1e-7 degrees
 /// where vertices have been moved, but for rounding where they have not), it
-/// has the outline of the mesh given, every edge is locally Delaunay, and
-/// fixed vertices have their coordinates bit for bit. Without a budget the
+/// has the outline of the mesh given, every edge of a patch that was changed is
+/// locally Delaunay (with right angles as upper bound: every edge), and fixed vertices have their coordinates bit for bit. Without a budget the
 /// result depends on the input alone, not on the number of threads.
 ///
 /// # Errors
