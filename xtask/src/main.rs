@@ -1,3 +1,66 @@
-//! Development tasks.
+//! Development tasks: `cargo xtask <task>`.
 
-fn main() {}
+mod bench;
+mod ci;
+mod prove;
+mod regen;
+mod tidy;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", about = "Development tasks of the hexdel workspace")]
+struct Cli {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Run all that must pass: format, lints, structure, tests
+    Ci,
+    /// Check the structure of the workspace: which crate may depend on which,
+    /// lengths of files, headers of modules
+    Tidy,
+    /// Measure time and memory, side by side with spade
+    Bench(bench::Args),
+    /// Rebuild the records of the snapshot tests and the figures of the
+    /// documents from the fixtures
+    Regen {
+        /// Change nothing; fail if anything would change
+        #[arg(long)]
+        check: bool,
+    },
+    /// Prove by enumeration that every triangle keeps 43.9 to 90 degrees, and
+    /// write docs/proof.md
+    Prove {
+        /// Leave a rule away, by its name; nothing is written then
+        #[arg(long, value_name = "RULE")]
+        without: Vec<String>,
+        /// One unit of each kind instead of all orientations; nothing is
+        /// written
+        #[arg(long)]
+        reduced: bool,
+    },
+}
+
+/// What a task returns: nothing, or what went wrong.
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().task {
+        Task::Ci => ci::run(),
+        Task::Tidy => tidy::run(),
+        Task::Bench(args) => bench::run(&args),
+        Task::Regen { check } => regen::run(check),
+        Task::Prove { without, reduced } => prove::run(&without, reduced),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

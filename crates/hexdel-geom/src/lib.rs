@@ -8,10 +8,42 @@
 //! |---|---|
 //! | [`bounds`] | the angle interval a mesh promises |
 //! | [`mesh`] | [`TriMesh`]: vertices and counter-clockwise triangles |
+//! | [`monitor`] | progress and cancellation of long work |
+//! | [`points`] | [`PointSet`]: finite points, duplicates merged into sites |
+//! | [`circle`] | the smallest circle around a set of points |
+//! | [`mod@closest_pair`] | the closest two points of a set |
+//! | [`predicates`] | orientation and in-circle tests with exact signs |
+//! | [`quality`] | angles and aspect ratio of one triangle |
+//! | [`certificate`] | [`certify`]: what a finished mesh keeps, checked from scratch |
+//! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
+//! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
 
 pub mod bounds;
+pub mod certificate;
+pub mod circle;
+pub mod closest_pair;
+pub mod delaunay;
 pub mod mesh;
+pub mod monitor;
+pub mod points;
+pub mod predicates;
+pub mod pslg;
+pub mod quality;
+
+mod double_double;
+mod incidence;
+mod scale;
 
 pub use bounds::{AngleBounds, BoundsError};
+pub use certificate::{
+    ANGLE_TOLERANCE_DEG, Certificate, CertifyOptions, LENGTH_TOLERANCE, Violation, certify,
+};
+pub use circle::{Circle, smallest_enclosing_circle};
+pub use closest_pair::{ClosestPair, closest_pair};
+pub use delaunay::{DelaunayError, FlipReport, restore_delaunay};
 pub use glam::DVec2;
 pub use mesh::{TriMesh, TriangleId, VertexId};
+pub use monitor::{Cancelled, Monitor, Phase, Unwatched};
+pub use points::{PointSet, PointsError};
+pub use predicates::{incircle, orient2d};
+pub use pslg::{Pslg, PslgLayoutError, Region};

@@ -1,1 +1,55 @@
-//! To come.
+//! Triangle meshes with every angle between 43.9 and 90 degrees, certified.
+//!
+//! hexdel turns a set of points into a Delaunay mesh in which every point is a
+//! vertex and no angle is smaller than 43.89 or larger than 90 degrees, for
+//! any input: hexagonal Delaunay triangulation (Sussner and Greiner, 2009).
+//!
+//! ```
+//! use hexdel::DVec2;
+//!
+//! let points = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.2), DVec2::new(0.3, 0.7)];
+//! let made = hexdel::triangulate(&points)?;
+//!
+//! assert!(made.certificate.holds());
+//! assert!(made.certificate.max_angle_deg <= 90.0 + 1e-9);
+//! for (point, vertex) in points.iter().zip(&made.vertex_of_input) {
+//!     assert_eq!(made.mesh.vertices[vertex.index()], *point);
+//! }
+//! # Ok::<(), hexdel::Error>(())
+//! ```
+//!
+//! [`Mesher`] has the options. This crate holds no algorithm: the layers below
+//! it can be used on their own.
+//!
+//! | crate | what |
+//! |---|---|
+//! | [`geom`] | points, meshes, exact predicates, the certificate |
+//! | [`grid`] | the adaptive hexagon grid |
+//! | [`classify`] | classes of hexagons, templates, the dual mesh |
+//! | [`refine`] | the rules engine |
+//! | [`io`] | formats and pictures |
+
+/// The examples of the README, so that they stay true.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
+
+pub mod error;
+pub mod generate;
+pub mod mesher;
+pub mod picture;
+mod placement;
+pub mod triangulation;
+
+pub use hexdel_classify as classify;
+pub use hexdel_geom as geom;
+pub use hexdel_grid as grid;
+pub use hexdel_io as io;
+pub use hexdel_refine as refine;
+
+pub use error::Error;
+pub use hexdel_geom::{
+    AngleBounds, Certificate, DVec2, Monitor, Phase, TriMesh, TriangleId, Unwatched, VertexId,
+};
+pub use mesher::{Mesher, Method, triangulate};
+pub use triangulation::{Patch, Report, Seconds, Triangulation};

@@ -1,0 +1,80 @@
+//! Tasks that fill the mesh, each with its part of both arrays.
+
+use super::layout::Layout;
+use super::{triangles, vertices};
+use hexdel_geom::{DVec2, TriMesh, VertexId};
+use hexdel_grid::TileId;
+use rayon::prelude::*;
+
+/// Triangles of one task, about: enough work to be worth handing out, and
+/// little enough that its part of the mesh stays in the cache.
+const TRIANGLES_PER_TASK: u32 = 1 << 13;
+
+/// Tiles, and the parts of the mesh that they own.
+struct Task<'a> {
+    tiles: &'a [(u8, TileId)],
+    vertices: &'a mut [[f64; 2]],
+    triangles: &'a mut [[u32; 3]],
+}
+
+/// Fills the mesh, tile by tile.
+pub(super) fn mesh(layout: &Layout) -> TriMesh {
+    // Plain numbers, since the system hands out zeroed pages only when they
+    // are first written to, here by all threads. Giving them their meaning
+    // afterwards moves nothing.
+    let mut vertices = vec![[0.0; 2]; layout.vertices() as usize];
+    let mut triangles = vec![[0; 3]; layout.triangles() as usize];
+    let owners: Vec<_> = layout.owners().collect();
+    tasks(layout, &owners, &mut vertices, &mut triangles).into_par_iter().for_each(|task| fill(layout, task));
+    TriMesh {
+        vertices: vertices.into_iter().map(|[x, y]| DVec2::new(x, y)).collect(),
+        triangles: triangles
+            .into_iter()
+            .map(|[a, b, c]: [u32; 3]| {
+                [VertexId::new(a as usize), VertexId::new(b as usize), VertexId::new(c as usize)]
+            })
+            .collect(),
+    }
+}
+
+fn tasks<'a>(
+    layout: &Layout,
+    owners: &'a [(u8, TileId)],
+    mut vertices: &'a mut [[f64; 2]],
+    mut triangles: &'a mut [[u32; 3]],
+) -> Vec<Task<'a>> {
+    let mut tasks = Vec::new();
+    let mut rest = owners;
+    while !rest.is_empty() {
+        let (mut tiles, mut owned) = (0, (0, 0));
+        while tiles < rest.len() && owned.1 < TRIANGLES_PER_TASK {
+            let block = layout.block(rest[tiles].0, rest[tiles].1);
+            owned.0 += block.vertices.count_ones();
+            owned.1 += block.triangles;
+            tiles += 1;
+        }
+        let (mine, others) = rest.split_at(tiles);
+        rest = others;
+        tasks.push(Task {
+            tiles: mine,
+            vertices: split_off(&mut vertices, owned.0),
+            triangles: split_off(&mut triangles, owned.1),
+        });
+    }
+    tasks
+}
+
+/// Takes the first `count` of a slice.
+#[expect(clippy::mut_mut, reason = "the slice itself grows shorter")]
+fn split_off<'a, T>(slice: &mut &'a mut [T], count: u32) -> &'a mut [T] {
+    slice.split_off_mut(..count as usize).expect("tiles own no more than the mesh holds")
+}
+
+fn fill(layout: &Layout, task: Task) {
+    let Task { tiles, mut vertices, mut triangles } = task;
+    for &(level, id) in tiles {
+        let block = layout.block(level, id);
+        vertices::fill_tile(layout, level, id, split_off(&mut vertices, block.vertices.count_ones()));
+        triangles::fill_tile(layout, level, id, split_off(&mut triangles, block.triangles));
+    }
+}

@@ -1,0 +1,188 @@
+//! `hexdel check`: what can be said of a mesh, whoever made it.
+
+use crate::exit::{Outcome, Verdict, print};
+use crate::input::read_points;
+use hexdel::geom::certificate::Violation;
+use hexdel::geom::{CertifyOptions, certify};
+use hexdel::{AngleBounds, Certificate, DVec2};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Violations that are shown to a reader; JSON has the first hundred.
+const SHOWN: usize = 10;
+
+/// Check a mesh: angles, Delaunay, topology, input points
+#[derive(clap::Args)]
+#[command(after_help = "\
+    The default bounds are those of `hexdel mesh`. The Delaunay property and\n\
+    orientations are decided exactly. Exits with 1 if the mesh does not hold.\n\n\
+    Examples:\n  \
+    hexdel check mesh.ele --input points.node\n  \
+    hexdel check mesh.ele --min-angle 20 --max-angle 140 --json")]
+pub(crate) struct Args {
+    /// Mesh: .ele or .node (each with the other beside it), or .ron
+    mesh: PathBuf,
+    /// File of points that must be vertices, bit for bit
+    #[arg(long)]
+    input: Option<PathBuf>,
+    /// The smallest angle allowed, degrees
+    #[arg(long, value_name = "A", default_value_t = AngleBounds::EXTENDED.min_deg(), allow_negative_numbers = true)]
+    min_angle: f64,
+    /// The largest angle allowed, degrees
+    #[arg(long, value_name = "B", default_value_t = AngleBounds::EXTENDED.max_deg(), allow_negative_numbers = true)]
+    max_angle: f64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Findings<'a> {
+    holds: bool,
+    #[serde(flatten)]
+    certificate: &'a Certificate,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &Args) -> Outcome {
+    let bounds = AngleBounds::new(args.min_angle, args.max_angle)?;
+    let inputs: Option<Vec<DVec2>> = args.input.as_deref().map(read_points).transpose()?;
+    let mesh = hexdel_io::read_mesh(&args.mesh)?;
+    let options = CertifyOptions { bounds, inputs: inputs.as_deref(), ..CertifyOptions::default() };
+    let certificate = certify(&mesh, &options);
+    // An empty mesh has no fault, but is no disk: it does not hold.
+    let holds = certificate.holds();
+    let text = if args.json {
+        serde_json::to_string_pretty(&Findings { holds, certificate: &certificate })? + "\n"
+    } else {
+        readable(&args.mesh.display().to_string(), &certificate)
+    };
+    print(&text)?;
+    Ok(if holds { Verdict::Holds } else { Verdict::Fails })
+}
+
+/// One line per finding, then the first violations.
+fn readable(name: &str, c: &Certificate) -> String {
+    let mut text = format!("{name}: {} vertices, {} triangles\n", c.vertices, c.triangles);
+    for (good, finding) in findings(c) {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "  {}  {finding}", if good { "ok  " } else { "FAIL" });
+    }
+    let _ = writeln!(
+        text,
+        "        shortest edge {}, largest aspect ratio {:.4}",
+        c.shortest_edge, c.max_aspect_ratio
+    );
+    for violation in c.violations.iter().take(SHOWN) {
+        let _ = writeln!(text, "  - {}", describe(violation));
+    }
+    if c.violations.len() > SHOWN {
+        let _ = writeln!(text, "  - and more");
+    }
+    let _ = writeln!(text, "{}", if c.holds() { "holds" } else { "does not hold" });
+    text
+}
+
+/// What was asked for, each with whether it is so.
+fn findings(c: &Certificate) -> Vec<(bool, String)> {
+    let broken = c.malformed + c.not_finite + c.not_counter_clockwise;
+    // A triangle the wrong way round has negative angles.
+    let beyond = c.out_of_bounds + c.not_counter_clockwise;
+    let angles = format!("angles {:.4} to {:.4}", c.min_angle_deg, c.max_angle_deg);
+    let bounds = format!("{:.4} to {:.4} degrees", c.bounds.min_deg(), c.bounds.max_deg());
+    let mut findings = vec![
+        finding(
+            beyond == 0,
+            format!("{angles}, within {bounds}"),
+            format!("{angles}: {beyond} triangles not within {bounds}"),
+        ),
+        finding(
+            broken == 0,
+            "all counter-clockwise",
+            format!("{broken} triangles flat, clockwise or broken"),
+        ),
+        finding(c.delaunay, "Delaunay", format!("not Delaunay: {} edges", c.non_delaunay_edges)),
+        finding(
+            c.manifold,
+            "manifold",
+            format!(
+                "not manifold: {} edges repeated, {} vertices branching, {} unused",
+                c.repeated_edges, c.branching_vertices, c.unused_vertices
+            ),
+        ),
+        finding(
+            c.disk,
+            "one disk",
+            format!(
+                "not one disk: {} boundary loops, Euler characteristic {}",
+                c.boundary_loops, c.euler_characteristic
+            ),
+        ),
+    ];
+    if c.rounding_limited > 0 {
+        let excess = c.worst_rounding_excess_deg;
+        let n = c.rounding_limited;
+        findings.push((
+            true,
+            format!("{n} triangles past a bound by rounding alone, at most {excess:.1e} degrees"),
+        ));
+    }
+    if c.inputs > 0 {
+        let kept = c.inputs_kept == c.inputs;
+        findings.push((kept, format!("{} of {} input points are vertices", c.inputs_kept, c.inputs)));
+    }
+    findings
+}
+
+fn finding(good: bool, yes: impl Into<String>, no: impl Into<String>) -> (bool, String) {
+    (good, if good { yes.into() } else { no.into() })
+}
+
+/// A violation in words, ids counted from 0.
+fn describe(violation: &Violation) -> String {
+    use Violation as V;
+    match violation {
+        V::CornerOutOfRange { triangle, vertex, .. } => {
+            format!("triangle {}: no vertex {}", triangle.index(), vertex.index())
+        }
+        V::RepeatedCorner { triangle, vertex } => {
+            format!("triangle {}: vertex {} twice", triangle.index(), vertex.index())
+        }
+        V::CornerNotFinite { triangle, vertex } => {
+            format!("triangle {}: vertex {} is not finite", triangle.index(), vertex.index())
+        }
+        V::NotCounterClockwise { triangle, corners } => {
+            format!("triangle {} {}: clockwise or flat", triangle.index(), points(corners))
+        }
+        V::AngleBelow { triangle, angle_deg, corners, .. }
+        | V::AngleAbove { triangle, angle_deg, corners, .. } => {
+            format!("triangle {} {}: {angle_deg} degrees", triangle.index(), points(corners))
+        }
+        V::EdgeTooShort { triangle, length, .. } => {
+            format!("triangle {}: an edge of length {length}", triangle.index())
+        }
+        V::RepeatedEdge { triangle, edge, ends } => {
+            let [a, b] = edge.map(hexdel::VertexId::index);
+            format!("triangle {}: edge {a} {b} {} again", triangle.index(), points(ends))
+        }
+        V::BranchingVertex { vertex, at } => {
+            format!("vertex {} {}: its triangles form no single fan", vertex.index(), points(&[*at]))
+        }
+        V::UnusedVertex { vertex } => format!("vertex {}: in no triangle", vertex.index()),
+        V::NotDelaunay { edge, ends, .. } => {
+            let [a, b] = edge.map(hexdel::VertexId::index);
+            format!("edge {a} {b} {}: not Delaunay", points(ends))
+        }
+        V::InputMissing { input, at } => {
+            format!("input point {input} {}: no vertex", points(&[*at]))
+        }
+        other => format!("{other:?}"),
+    }
+}
+
+fn points(points: &[DVec2]) -> String {
+    let each: Vec<String> = points.iter().map(|p| format!("({}, {})", p.x, p.y)).collect();
+    each.join(" ")
+}

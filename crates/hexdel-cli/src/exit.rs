@@ -1,0 +1,92 @@
+//! How a command ends: errors, exit codes, and text that a closed pipe may cut.
+
+use hexdel::geom::BoundsError;
+use hexdel_io::{ReadError, WriteError};
+use miette::Diagnostic;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use thiserror::Error;
+
+/// Whether what was checked holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    Holds,
+    Fails,
+}
+
+/// How a command ends.
+pub(crate) type Outcome = Result<Verdict, Failure>;
+
+/// Why a command did not do its work.
+#[derive(Debug, Error, Diagnostic)]
+pub(crate) enum Failure {
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// An error that is about a file's points.
+    #[error("{file}: {source}")]
+    Mesh { file: String, source: hexdel::Error },
+    #[error(transparent)]
+    #[diagnostic(help("the smallest angle is at most 60 degrees, the largest at least 60"))]
+    Bounds(#[from] BoundsError),
+    #[error("{}: {source}", file.display())]
+    Output { file: PathBuf, source: io::Error },
+    #[error("{}: not a plain file, will not be replaced", file.display())]
+    NotAFile { file: PathBuf },
+    #[error("{}: belongs to the input, will not be replaced", file.display())]
+    #[diagnostic(help("a mesh in .ele has its vertices in a .node beside it: give it another name"))]
+    ReplacesInput { file: PathBuf },
+    #[error("{}: two outputs of the same name", file.display())]
+    Twice { file: PathBuf },
+    #[error("standard output: {0}")]
+    Stdout(io::Error),
+    #[error("no JSON of the figures: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+impl Failure {
+    fn code(&self) -> u8 {
+        match self {
+            Self::Mesh { source: hexdel::Error::NotCertified { .. }, .. } => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// Reports a failure on standard error and gives the exit code: 0 done, 1 a
+/// check failed, 2 bad input, usage or system.
+pub(crate) fn finish(outcome: Outcome) -> ExitCode {
+    match outcome {
+        Ok(Verdict::Holds) => ExitCode::SUCCESS,
+        Ok(Verdict::Fails) => ExitCode::from(1),
+        Err(failure) => {
+            complain("error", &failure.to_string());
+            if let Some(help) = failure.help() {
+                complain("help", &help.to_string());
+            }
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+/// Warns on standard error.
+pub(crate) fn warn(message: &str) {
+    complain("warning", message);
+}
+
+/// A line on standard error. If even that is closed there is nobody to tell.
+fn complain(kind: &str, message: &str) {
+    let _ = writeln!(io::stderr(), "{kind}: {message}");
+}
+
+/// Writes to standard output. A reader that has seen enough and closed the pipe
+/// is no failure.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Stdout(error)),
+        _ => Ok(()),
+    }
+}

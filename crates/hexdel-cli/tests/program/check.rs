@@ -1,0 +1,110 @@
+//! `hexdel check`.
+
+use crate::support::{Bench, fixture};
+use std::process::Stdio;
+
+const SQUARE: &str = "4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n";
+
+/// Checks a mesh of the square's corners.
+fn check(elements: &str, options: &str) -> crate::support::Run {
+    let bench = Bench::new();
+    bench.file("m.node", SQUARE);
+    bench.file("m.ele", elements);
+    bench.run(&format!("check m.ele {options}"))
+}
+
+#[test]
+fn a_good_mesh_holds() {
+    let run = check("2 3 0\n0 0 1 2\n1 0 2 3\n", "");
+    run.fine();
+    assert!(run.out.ends_with("holds\n"));
+}
+
+#[test]
+fn bounds_are_what_is_asked_for() {
+    let elements = "2 3 0\n0 0 1 2\n1 0 2 3\n";
+    assert_eq!(check(elements, "--min-angle 45 --max-angle 90").code, 0);
+    let run = check(elements, "--min-angle 46");
+    assert_eq!(run.code, 1);
+    assert!(run.out.contains("2 triangles not within 46.0000 to 90.0000"), "{}", run.out);
+    assert_eq!(check(elements, "--max-angle 89").code, 1);
+    for options in ["--min-angle 61", "--max-angle 59", "--min-angle NaN", "--min-angle -1"] {
+        check(elements, options).refused("no triangle has all angles between");
+    }
+}
+
+#[test]
+fn whatever_is_wrong_with_a_mesh_is_told() {
+    for (elements, words) in [
+        ("2 3 0\n0 0 2 1\n1 0 2 3\n", "clockwise or flat"),
+        ("2 3 0\n0 0 1 1\n1 0 2 3\n", "vertex 1 twice"),
+        ("2 3 0\n0 0 1 2\n1 0 1 3\n", "again"),
+        ("1 3 0\n0 0 1 2\n", "vertex 3: in no triangle"),
+        ("0 3 0\n", "not one disk"),
+    ] {
+        let run = check(elements, "");
+        assert_eq!((run.code, run.err.as_str()), (1, ""), "{elements}");
+        assert!(run.out.contains(words) && run.out.ends_with("does not hold\n"), "{}", run.out);
+    }
+    for (elements, words) in [
+        ("1 3 0\n0 0 1 4\n", "m.ele:2: no point 4"),
+        ("1 3 0\n0 -1 1 2\n", "m.ele:2: no point -1"),
+        ("2 3 0\n0 0 1 2\n", "file ends after 1 of 2 triangles"),
+        ("99999999999 3 0\n", "m.ele:1: more than"),
+        ("", "number of triangles"),
+    ] {
+        check(elements, "").refused(words);
+    }
+}
+
+#[test]
+fn missing_input_points_fail_the_check() {
+    let bench = Bench::new();
+    bench.file("m.node", SQUARE);
+    bench.file("m.ele", "2 3 0\n0 0 1 2\n1 0 2 3\n");
+    bench.file("p.txt", "0 0\n0.5 0.5\n");
+    let run = bench.run("check m.ele --input p.txt");
+    assert_eq!(run.code, 1);
+    assert!(run.out.contains("FAIL  1 of 2 input points are vertices"), "{}", run.out);
+    assert!(run.out.contains("input point 1 (0.5, 0.5): no vertex"), "{}", run.out);
+}
+
+#[test]
+fn json_says_the_same() {
+    let run = check("2 3 0\n0 0 1 2\n1 0 1 3\n", "--json");
+    assert_eq!(run.code, 1);
+    let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    assert_eq!((&json["holds"], &json["manifold"]), (&false.into(), &false.into()));
+    assert!(!json["violations"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn bad_files_are_refused() {
+    let bench = Bench::new();
+    bench.file("a.ron", "(vertices: [(0.0, NaN)], triangles: [])");
+    bench.file("b.ron", "nonsense");
+    for (mesh, words) in [
+        ("missing.ele", "no such file"),
+        ("a.svg", "unknown extension"),
+        ("a.ron", "not finite"),
+        ("b.ron", "b.ron:1:"),
+    ] {
+        bench.run(&format!("check {mesh}")).refused(words);
+    }
+}
+
+#[test]
+fn a_closed_pipe_is_no_failure() {
+    let bench = Bench::new();
+    for options in ["", "--json"] {
+        let mut child = bench
+            .command(&format!("check {} {options}", fixture("formats/fan.ele")))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
+    }
+}

@@ -1,0 +1,9 @@
+//! The program as its users call it: every command, exit codes, what is
+//! written and what is not.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
+
+mod check;
+mod generate;
+mod mesh;
+mod support;

@@ -1,0 +1,194 @@
+//! `hexdel mesh`.
+
+use crate::support::{Bench, fixture};
+
+#[test]
+fn a_real_input_is_meshed_and_holds() {
+    let bench = Bench::new();
+    let input = fixture("points/capitals.node");
+    let run = bench.run(&format!("mesh {input} -o new/folder/a.ele -o new/folder/a.svg -o a.vtu -o a.ron"));
+    run.fine();
+    assert!(run.out.contains("points     243\n") && run.out.contains("certified"), "{}", run.out);
+    assert_eq!(bench.names(), ["a.ron", "a.vtu", "new"]);
+    assert!(bench.read("new/folder/a.svg").starts_with(b"<svg"));
+    for mesh in ["new/folder/a.ele", "a.ron"] {
+        let check = bench.run(&format!("check {mesh} --input {input}"));
+        check.fine();
+        assert!(check.out.contains("243 of 243 input points are vertices"), "{}", check.out);
+    }
+}
+
+#[test]
+fn the_report_has_the_figures() {
+    let bench = Bench::new();
+    bench.run(&format!("mesh {} -q --report r.json", fixture("points/plane100.node"))).fine();
+    let report = bench.json("r.json");
+    for key in [
+        "vertices",
+        "triangles",
+        "min_angle_deg",
+        "max_angle_deg",
+        "out_of_bounds",
+        "delaunay",
+        "inputs",
+        "inputs_kept",
+        "max_level",
+        "seconds",
+    ] {
+        assert!(!report[key].is_null(), "{key}");
+    }
+    for key in ["refine", "extract", "certify", "total"] {
+        assert!(report["seconds"][key].as_f64().unwrap() >= 0.0, "{key}");
+    }
+    assert_eq!(report["inputs_kept"], 100);
+    assert!(report["min_angle_deg"].as_f64().unwrap() > 43.89);
+    assert!(report["max_angle_deg"].as_f64().unwrap() < 90.01);
+}
+
+#[test]
+fn threads_do_not_change_a_byte() {
+    let bench = Bench::new();
+    let input = fixture("points/capitals.node");
+    let files = ["m.node", "m.ele", "m.vtu", "m.ron", "m.svg"];
+    let mut first: Option<Vec<Vec<u8>>> = None;
+    for threads in [1, 2, 8] {
+        bench
+            .run(&format!("mesh {input} -q --grid --threads {threads} -o m.ele -o m.vtu -o m.ron -o m.svg"))
+            .fine();
+        let bytes: Vec<_> = files.iter().map(|f| bench.read(f)).collect();
+        assert!(*first.get_or_insert_with(|| bytes.clone()) == bytes, "{threads} threads");
+    }
+}
+
+#[test]
+fn options_reach_the_mesher() {
+    let bench = Bench::new();
+    let input = fixture("points/plane100.node");
+    let figures = |options: &str| {
+        bench.run(&format!("mesh {input} -q --report r.json {options}")).fine();
+        bench.json("r.json")
+    };
+    let (plain, simple) = (figures(""), figures("--method simple"));
+    assert!(simple["triangles"].as_u64() < plain["triangles"].as_u64());
+    assert!(simple["max_angle_deg"].as_f64().unwrap() > 90.0);
+    assert!(figures("--no-coarsening")["triangles"].as_u64() > plain["triangles"].as_u64());
+    assert_eq!(figures("--domain-radius 5")["domain_radius"].as_f64(), Some(5.0));
+    let picture = |options: &str| {
+        bench.run(&format!("mesh {input} -q -o p.svg {options}")).fine();
+        String::from_utf8(bench.read("p.svg")).unwrap()
+    };
+    assert!(picture("--grid").contains("hexagons by class"));
+    assert!(!picture("").contains("hexagons by class"));
+}
+
+#[test]
+fn quiet_prints_nothing_but_says_what_is_ignored() {
+    let bench = Bench::new();
+    let run = bench.run(&format!("mesh {} -q -o a.ron", fixture("formats/plate.poly")));
+    assert_eq!((run.code, run.out.as_str()), (0, ""));
+    assert!(run.err.starts_with("warning: ") && run.err.contains("ignored: 9 segments"), "{}", run.err);
+}
+
+#[test]
+fn duplicates_are_merged_and_counted() {
+    let bench = Bench::new();
+    bench.file("twice.csv", "x,y\n0,0\n1,0\n0,0\n");
+    let run = bench.run("mesh twice.csv -o a.ele");
+    run.fine();
+    assert!(run.out.contains("points     3 (1 of them duplicates)"), "{}", run.out);
+}
+
+#[test]
+fn bad_inputs_are_refused_and_nothing_is_written() {
+    let bench = Bench::new();
+    bench.file("empty.node", "");
+    bench.file("empty.csv", "");
+    bench.file("short.node", "3 2 0 0\n0 0 0\n");
+    bench.file("nan.txt", "0 0\nnan 1\n");
+    bench.file("noise.csv", [0xff, 0xfe, 0x00, 0x81]);
+    bench.file("huge.txt", "0 0\n1e300 0\n");
+    bench.file("close.txt", "1e16 0\n1.0000000000000002e16 0\n");
+    std::fs::create_dir(bench.path("folder.node")).unwrap();
+    let before = bench.names();
+    for (input, words) in [
+        ("missing.node", "missing.node: no such file"),
+        ("folder.node", "folder.node: "),
+        ("empty.node", "number of points"),
+        ("empty.csv", "empty.csv: the input has no points"),
+        ("short.node", "short.node:2: file ends after 1 of 3 points"),
+        ("nan.txt", "nan.txt:2: coordinate nan of point 1"),
+        ("noise.csv", "noise.csv:1: not UTF-8"),
+        ("huge.txt", "huge.txt: point 1 at"),
+        ("close.txt", "close.txt: points 0 at"),
+        ("points.shp", "points.shp: unknown extension"),
+    ] {
+        bench.run(&format!("mesh {input} -o new/a.ele -o new/a.svg --report r.json")).refused(words);
+        assert_eq!(bench.names(), before, "{input}");
+    }
+}
+
+#[test]
+fn bad_outputs_are_refused_before_anything_is_written() {
+    let bench = Bench::new();
+    bench.file("p.txt", "0 0\n1 0\n");
+    bench.file("p.node", "1 2 0 0\n0 0 0\n");
+    bench.file("q.poly", "0 2 0 0\n1 0\n0 0 1\n0\n");
+    std::fs::create_dir(bench.path("folder.svg")).unwrap();
+    let before = bench.names();
+    for (arguments, words) in [
+        ("p.txt -o a.ele -o a.stl", "a.stl: unknown extension"),
+        ("p.txt -o a.ele -o a.node", "two outputs of the same name"),
+        ("p.txt -o a.svg --report ./a.svg", "two outputs of the same name"),
+        ("p.txt -o folder.svg", "not a plain file"),
+        ("p.txt -o a.ele -o p.txt/a.svg", "p.txt/a.svg: "),
+        ("p.txt -o a.ele --report p.txt", "belongs to the input"),
+        ("p.node -o p.ele", "belongs to the input"),
+        ("q.poly -o q.ele", "belongs to the input"),
+        ("p.txt", "--output"),
+    ] {
+        bench.run(&format!("mesh {arguments}")).refused(words);
+        assert_eq!(bench.names(), before, "{arguments}");
+    }
+    assert_eq!(bench.read("p.txt"), b"0 0\n1 0\n");
+}
+
+#[test]
+fn bad_options_are_refused() {
+    let bench = Bench::new();
+    bench.file("p.txt", "0 0\n1 0\n");
+    for options in ["--domain-radius 0", "--domain-radius -1", "--domain-radius NaN", "--domain-radius inf"] {
+        bench.run(&format!("mesh p.txt -o a.ele {options}")).refused("expected a positive number");
+    }
+    bench
+        .run("mesh p.txt -o a.ele --domain-radius 1e-3")
+        .refused("p.txt: a domain of radius 0.001 is too small");
+    bench.run("mesh p.txt -o a.ele --threads 0").refused("--threads");
+    bench.run("mesh p.txt -o a.ele --method best").refused("templates, simple");
+    assert_eq!(bench.names(), ["p.txt"]);
+}
+
+#[test]
+fn an_older_file_is_replaced_only_by_a_complete_one() {
+    let bench = Bench::new();
+    bench.file("p.txt", "0 0\n1 0\n");
+    bench.file("a.ele", "old");
+    bench.file("broken.txt", "0 0\n1\n");
+    assert_eq!(bench.run("mesh broken.txt -o a.ele").code, 2);
+    assert_eq!(bench.read("a.ele"), b"old");
+    bench.run("mesh p.txt -q -o a.ele").fine();
+    assert!(bench.read("a.ele").ends_with(b"\n"));
+    assert_eq!(bench.names(), ["a.ele", "a.node", "broken.txt", "p.txt"]);
+}
+
+#[test]
+fn help_fits_a_screen() {
+    let bench = Bench::new();
+    for command in ["", "mesh", "check", "generate"] {
+        let run = bench.run(&format!("{command} --help"));
+        run.fine();
+        assert!(run.out.contains("Example"), "{command}");
+        assert!(run.out.lines().count() <= 30, "{command}");
+    }
+    assert_eq!(bench.run("-V").out, format!("hexdel {}\n", env!("CARGO_PKG_VERSION")));
+    assert_eq!(bench.run("").code, 2);
+}

@@ -1,0 +1,330 @@
+//! Checks of single triangles: form, orientation, angles, edge lengths.
+//!
+//! An angle between vectors with dot product `d` and (positive) cross product
+//! `c` has cotangent `d / c`, which decreases with the angle. A triangle's
+//! three cotangents share the cross product, so its extreme angles and their
+//! comparison with the bounds cost one division; an arc tangent is evaluated
+//! only for triangles near or past a bound and for the extremes of the mesh.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::{
+    ANGLE_TOLERANCE_DEG, CHUNK, CertifyOptions, LENGTH_TOLERANCE, ROUNDING_FACTOR, View, Violation, note,
+};
+use crate::bounds::AngleBounds;
+use crate::incidence::well_formed;
+use crate::mesh::{TriangleId, VertexId};
+use crate::predicates::orient2d;
+use crate::quality::{angles_deg, aspect_of};
+use crate::scale::ulp;
+
+/// What the triangles of a mesh, or of a part of it, have to say.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shapes {
+    pub(super) min_angle_deg: f64,
+    pub(super) max_angle_deg: f64,
+    pub(super) max_aspect_ratio: f64,
+    pub(super) shortest_edge: f64,
+    pub(super) out_of_bounds: usize,
+    pub(super) rounding_limited: usize,
+    pub(super) worst_rounding_excess_deg: f64,
+    pub(super) not_counter_clockwise: usize,
+    pub(super) malformed: usize,
+    pub(super) not_finite: usize,
+    pub(super) short_triangles: usize,
+    pub(super) violations: Vec<Violation>,
+}
+
+pub(super) fn check(view: &View<'_>, request: &CertifyOptions<'_>) -> Shapes {
+    let limits = Limits::new(view, request);
+    let parts: Vec<Part> = view
+        .mesh
+        .triangles
+        .par_chunks(CHUNK)
+        .enumerate()
+        .map(|(chunk, triangles)| Part::of(view, &limits, chunk * CHUNK, triangles))
+        .collect();
+    let total = parts.into_iter().fold(Part::default(), |sum, part| sum.merge(part, &limits));
+    total.finish(view)
+}
+
+/// The request in terms that are cheap to compare with.
+struct Limits {
+    bounds: AngleBounds,
+    /// Cotangents above this belong to angles below the lower bound.
+    max_cot: f64,
+    /// Cotangents below this belong to angles above the upper bound.
+    min_cot: f64,
+    /// Scaled.
+    min_edge: f64,
+    /// Squares of scaled lengths below this belong to edges that are too short
+    /// unless rounding excuses them.
+    min_edge_sq: f64,
+    max_violations: usize,
+}
+
+impl Limits {
+    fn new(view: &View<'_>, request: &CertifyOptions<'_>) -> Self {
+        let cot = |deg: f64| {
+            let (sin, cos) = libm::sincos(deg.to_radians());
+            cos / sin
+        };
+        let low = request.bounds.min_deg() - ANGLE_TOLERANCE_DEG;
+        let high = request.bounds.max_deg() + ANGLE_TOLERANCE_DEG;
+        // No edge keeps a bound that is not a number.
+        let bound = request.min_edge.map_or(0.0, |e| if e.is_nan() { f64::INFINITY } else { e });
+        let min_edge = bound * view.scale;
+        Self {
+            bounds: request.bounds,
+            max_cot: if low > 0.0 { cot(low) } else { f64::INFINITY },
+            min_cot: if high < 180.0 { cot(high) } else { f64::NEG_INFINITY },
+            min_edge,
+            min_edge_sq: (min_edge * (1.0 - LENGTH_TOLERANCE)).powi(2),
+            max_violations: request.max_violations,
+        }
+    }
+}
+
+/// Counts and extremes of consecutive triangles. Merging is associative:
+/// sums of integers, minima, maxima and concatenation.
+struct Part {
+    shapes: Shapes,
+    /// Smallest and largest cotangent of the angles that were not evaluated
+    /// as angles.
+    cots: [f64; 2],
+    shortest_sq: f64,
+}
+
+impl Default for Part {
+    fn default() -> Self {
+        let shapes =
+            Shapes { min_angle_deg: f64::INFINITY, max_angle_deg: f64::NEG_INFINITY, ..Shapes::default() };
+        Self { shapes, cots: [f64::INFINITY, f64::NEG_INFINITY], shortest_sq: f64::INFINITY }
+    }
+}
+
+impl Part {
+    fn of(view: &View<'_>, limits: &Limits, first: usize, triangles: &[[VertexId; 3]]) -> Self {
+        let mut part = Self::default();
+        let n = view.mesh.vertices.len();
+        for (i, &corners) in triangles.iter().enumerate() {
+            let triangle = TriangleId::new(first + i);
+            if well_formed(corners, n) {
+                part.shape(view, limits, triangle, corners.map(|v| view.at(v.index())));
+            } else {
+                part.shapes.malformed += 1;
+                note(&mut part.shapes.violations, limits.max_violations, || {
+                    malformation(triangle, corners, n)
+                });
+            }
+        }
+        part
+    }
+
+    #[inline]
+    fn shape(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, [a, b, c]: [DVec2; 3]) {
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let lengths_sq = [ab, bc, ca].map(DVec2::length_squared);
+        let (left, right) = (ab.y * ca.x, ab.x * ca.y);
+        let cross = left - right;
+        // The differences and products are off by 4 u of their magnitude in
+        // all: above 8 u the sign is certain. This is false for NaN, too.
+        if !(cross > 4.0 * f64::EPSILON * (left.abs() + right.abs()) && cross.is_finite()) {
+            return self.doubtful(view, limits, triangle, [a, b, c]);
+        }
+        let shortest_sq = lengths_sq[0].min(lengths_sq[1]).min(lengths_sq[2]);
+        self.shortest_sq = self.shortest_sq.min(shortest_sq);
+        let aspect = aspect_of(lengths_sq.map(f64::sqrt), cross);
+        self.shapes.max_aspect_ratio = self.shapes.max_aspect_ratio.max(aspect);
+        let dots = [-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)];
+        let inv = 1.0 / cross;
+        let low = dots[0].min(dots[1]).min(dots[2]) * inv;
+        let high = dots[0].max(dots[1]).max(dots[2]) * inv;
+        self.cots = [self.cots[0].min(low), self.cots[1].max(high)];
+        if high > limits.max_cot || low < limits.min_cot {
+            self.past_bounds(view, limits, triangle, [a, b, c]);
+        }
+        if shortest_sq < limits.min_edge_sq {
+            self.too_short(view, limits, triangle, [a, b, c]);
+        }
+    }
+
+    /// A triangle whose orientation is not plain.
+    #[cold]
+    fn doubtful(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
+        if let Some(i) = corners.iter().position(|p| !p.is_finite()) {
+            self.shapes.not_finite += 1;
+            let vertex = view.mesh.triangles[triangle.index()][i];
+            let violation = || Violation::CornerNotFinite { triangle, vertex };
+            return note(&mut self.shapes.violations, limits.max_violations, violation);
+        }
+        let [a, b, c] = corners;
+        for angle in angles_deg(corners) {
+            self.shapes.min_angle_deg = self.shapes.min_angle_deg.min(angle);
+            self.shapes.max_angle_deg = self.shapes.max_angle_deg.max(angle);
+        }
+        for side in [b - a, c - b, a - c] {
+            self.shortest_sq = self.shortest_sq.min(side.length_squared());
+        }
+        if orient2d(a, b, c) > 0.0 {
+            self.shapes.max_aspect_ratio =
+                self.shapes.max_aspect_ratio.max(crate::quality::aspect_ratio(corners));
+            self.past_bounds(view, limits, triangle, corners);
+        } else {
+            self.shapes.not_counter_clockwise += 1;
+            note(&mut self.shapes.violations, limits.max_violations, || Violation::NotCounterClockwise {
+                triangle,
+                corners: original(view, corners),
+            });
+        }
+        self.too_short(view, limits, triangle, corners);
+    }
+
+    #[cold]
+    fn past_bounds(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
+        match check_angles(corners, limits.bounds) {
+            Fit::Within => {}
+            Fit::RoundingLimited { excess_deg } => {
+                self.shapes.rounding_limited += 1;
+                self.shapes.worst_rounding_excess_deg = self.shapes.worst_rounding_excess_deg.max(excess_deg);
+            }
+            Fit::Outside { corner, angle_deg, below } => {
+                self.shapes.out_of_bounds += 1;
+                note(&mut self.shapes.violations, limits.max_violations, || {
+                    let corners = original(view, corners);
+                    if below {
+                        Violation::AngleBelow { triangle, corner, angle_deg, corners }
+                    } else {
+                        Violation::AngleAbove { triangle, corner, angle_deg, corners }
+                    }
+                });
+            }
+        }
+    }
+
+    #[cold]
+    fn too_short(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
+        let [a, b, c] = corners;
+        let floor = limits.min_edge * (1.0 - LENGTH_TOLERANCE);
+        let short = [(a, b), (b, c), (c, a)].into_iter().find_map(|(p, q)| {
+            let length = p.distance(q);
+            let slack = ROUNDING_FACTOR * (displacement(p) + displacement(q));
+            (length + slack < floor).then_some(length)
+        });
+        if let Some(length) = short {
+            self.shapes.short_triangles += 1;
+            note(&mut self.shapes.violations, limits.max_violations, || Violation::EdgeTooShort {
+                triangle,
+                length: length / view.scale,
+                corners: original(view, corners),
+            });
+        }
+    }
+
+    fn merge(mut self, part: Self, limits: &Limits) -> Self {
+        let (sum, new) = (&mut self.shapes, part.shapes);
+        sum.min_angle_deg = sum.min_angle_deg.min(new.min_angle_deg);
+        sum.max_angle_deg = sum.max_angle_deg.max(new.max_angle_deg);
+        sum.max_aspect_ratio = sum.max_aspect_ratio.max(new.max_aspect_ratio);
+        sum.out_of_bounds += new.out_of_bounds;
+        sum.rounding_limited += new.rounding_limited;
+        sum.worst_rounding_excess_deg = sum.worst_rounding_excess_deg.max(new.worst_rounding_excess_deg);
+        sum.not_counter_clockwise += new.not_counter_clockwise;
+        sum.malformed += new.malformed;
+        sum.not_finite += new.not_finite;
+        sum.short_triangles += new.short_triangles;
+        let room = limits.max_violations - sum.violations.len();
+        sum.violations.extend(new.violations.into_iter().take(room));
+        self.cots = [self.cots[0].min(part.cots[0]), self.cots[1].max(part.cots[1])];
+        self.shortest_sq = self.shortest_sq.min(part.shortest_sq);
+        self
+    }
+
+    /// The extremes as angles and lengths.
+    fn finish(self, view: &View<'_>) -> Shapes {
+        let mut shapes = self.shapes;
+        if self.cots[0] <= self.cots[1] {
+            let [largest, smallest] = self.cots.map(|cot| libm::atan2(1.0, cot).to_degrees());
+            shapes.min_angle_deg = shapes.min_angle_deg.min(smallest);
+            shapes.max_angle_deg = shapes.max_angle_deg.max(largest);
+        }
+        shapes.shortest_edge = self.shortest_sq.sqrt() / view.scale;
+        if self.shortest_sq.is_infinite() {
+            (shapes.min_angle_deg, shapes.max_angle_deg, shapes.shortest_edge) = (0.0, 0.0, 0.0);
+        }
+        shapes
+    }
+}
+
+fn malformation(triangle: TriangleId, corners: [VertexId; 3], vertex_count: usize) -> Violation {
+    let [a, b, c] = corners;
+    match corners.iter().position(|v| v.index() >= vertex_count) {
+        Some(corner) => Violation::CornerOutOfRange { triangle, corner, vertex: corners[corner] },
+        // If a and b differ, c is the same as one of them.
+        None => Violation::RepeatedCorner { triangle, vertex: if a == b { a } else { c } },
+    }
+}
+
+fn original(view: &View<'_>, corners: [DVec2; 3]) -> [DVec2; 3] {
+    corners.map(|p| p / view.scale)
+}
+
+/// How a triangle's angles stand to the bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Fit {
+    /// All within, up to the tolerance.
+    Within,
+    /// Some past by more than the tolerance, but no more than rounding
+    /// explains.
+    RoundingLimited {
+        /// The most that an angle is past its bound, degrees.
+        excess_deg: f64,
+    },
+    /// One past by more than that.
+    Outside {
+        /// The corner with the largest excess.
+        corner: usize,
+        /// Its angle.
+        angle_deg: f64,
+        /// Past the lower bound, not the upper.
+        below: bool,
+    },
+}
+
+/// Holds the angles of a counter-clockwise triangle against the bounds.
+pub(crate) fn check_angles(corners: [DVec2; 3], bounds: AngleBounds) -> Fit {
+    let angles = angles_deg(corners);
+    let mut limited: f64 = 0.0;
+    let mut outside: Option<(f64, usize)> = None;
+    for (i, angle) in angles.into_iter().enumerate() {
+        let excess = (bounds.min_deg() - angle).max(angle - bounds.max_deg());
+        if excess <= ANGLE_TOLERANCE_DEG {
+            continue;
+        }
+        let turned = [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]];
+        if excess <= ANGLE_TOLERANCE_DEG + rounding_slack_deg(turned) {
+            limited = limited.max(excess);
+        } else if outside.is_none_or(|(most, _)| excess > most) {
+            outside = Some((excess, i));
+        }
+    }
+    if let Some((_, corner)) = outside {
+        let angle_deg = angles[corner];
+        return Fit::Outside { corner, angle_deg, below: angle_deg < bounds.min_deg() };
+    }
+    if limited > 0.0 { Fit::RoundingLimited { excess_deg: limited } } else { Fit::Within }
+}
+
+/// How far the rounding of the corners may have moved the angle at `a`; the
+/// derivation is in the docs of the certificate.
+fn rounding_slack_deg([a, b, c]: [DVec2; 3]) -> f64 {
+    let (ab, ac, bc) = (a.distance(b), a.distance(c), b.distance(c));
+    let turn = displacement(b) / ab + displacement(c) / ac + displacement(a) * bc / (ab * ac);
+    (ROUNDING_FACTOR * turn).to_degrees()
+}
+
+/// How far a point may be from the one it is the correct rounding of.
+fn displacement(p: DVec2) -> f64 {
+    0.5 * DVec2::new(ulp(p.x), ulp(p.y)).length()
+}

@@ -1,0 +1,164 @@
+//! From addresses to coordinates and back.
+
+use crate::axial::{Address, Hex};
+use crate::double::Double;
+use glam::DVec2;
+
+/// Where the grid lies in the plane: its origin and the spacing of level 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Centre of the hexagon `(0, 0)` of every level, in input units.
+    origin: DVec2,
+    /// Distance of neighbouring centres at level 0; positive and finite.
+    spacing: f64,
+}
+
+/// A point's hexagon on one level, and where in it the point lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Located {
+    /// The hexagon whose closed cell holds the point.
+    pub hex: Hex,
+    /// The point minus the hexagon's centre, in units of the level's spacing.
+    pub offset: DVec2,
+}
+
+/// Largest component along the lattice directions: `1/2` on the boundary of
+/// the unit lattice's cell.
+fn hexagonal_norm(v: DVec2) -> f64 {
+    let (half, tall) = (0.5 * v.x, Double::HALF_SQRT_3.hi * v.y);
+    v.x.abs().max((half + tall).abs()).max((half - tall).abs())
+}
+
+impl Lattice {
+    /// The lattices with a hexagon centred on `origin` and level 0 spaced
+    /// `spacing` apart, both in input units.
+    pub const fn new(origin: DVec2, spacing: f64) -> Self {
+        Self { origin, spacing }
+    }
+
+    /// Centre of the hexagon `(0, 0)` of every level.
+    pub const fn origin(&self) -> DVec2 {
+        self.origin
+    }
+
+    /// Distance of neighbouring centres at `level`: `s_0 / 2^level`, exactly.
+    #[inline]
+    pub fn spacing(&self, level: u8) -> f64 {
+        self.spacing * 0.5_f64.powi(i32::from(level))
+    }
+
+    /// The centre of a hexagon, in input units.
+    ///
+    /// # Guarantees
+    ///
+    /// Each coordinate is within one unit in its last place of the exact
+    /// value, however deep the level.
+    pub fn position(&self, at: Address) -> DVec2 {
+        let (x, y) = self.exact(at.level, at.hex);
+        DVec2::new(x.value(), y.value())
+    }
+
+    /// The centre of a hexagon to double-double precision.
+    pub fn exact(&self, level: u8, hex: Hex) -> (Double, Double) {
+        let (x, y) = self.relative(level, hex);
+        (x + self.origin.x.into(), y + self.origin.y.into())
+    }
+
+    /// The centre of a hexagon relative to the lattice's origin.
+    fn relative(&self, level: u8, hex: Hex) -> (Double, Double) {
+        let s = self.spacing(level);
+        let x = Double::product(0.5 * s, (2 * hex.q + hex.r) as f64);
+        let y = Double::HALF_SQRT_3.times(hex.r as f64).times(s);
+        (x, y)
+    }
+
+    /// The hexagon of `level` whose cell holds `point`.
+    ///
+    /// A point on an edge or a corner is given one of the cells that share it,
+    /// always the same one.
+    ///
+    /// # Guarantees
+    ///
+    /// The offset is exact to a few units in its last place as long as the
+    /// address stays below `2^50`.
+    pub fn locate(&self, level: u8, point: DVec2) -> Located {
+        let s = self.spacing(level);
+        let x = Double::sum(point.x, -self.origin.x);
+        let y = Double::sum(point.y, -self.origin.y);
+        let r = y.value() / (s * Double::HALF_SQRT_3.hi);
+        let q = x.value() / s - 0.5 * r;
+        let mut hex = nearest(q, r);
+        // The first guess misses by the rounding of a large quotient at most,
+        // so one or two steps settle it; the third is for a point on an edge.
+        for _ in 0..3 {
+            let offset = self.offset(level, hex, x, y);
+            let step = nearest(offset.x - offset.y / SQRT_3, offset.y / Double::HALF_SQRT_3.hi);
+            if step == Hex::ORIGIN || hexagonal_norm(offset) <= 0.5 {
+                return Located { hex, offset };
+            }
+            hex = hex + step;
+        }
+        Located { hex, offset: self.offset(level, hex, x, y) }
+    }
+
+    /// From the centre of `hex` to the point `(x, y)` relative to the origin,
+    /// in units of the level's spacing.
+    fn offset(&self, level: u8, hex: Hex, x: Double, y: Double) -> DVec2 {
+        let (s, (cx, cy)) = (self.spacing(level), self.relative(level, hex));
+        DVec2::new((x - cx).value() / s, (y - cy).value() / s)
+    }
+}
+
+const SQRT_3: f64 = 1.732_050_807_568_877_2;
+
+/// The lattice point nearest to fractional axial coordinates.
+fn nearest(q: f64, r: f64) -> Hex {
+    let (rq, rr, rs) = (q.round(), r.round(), (-q - r).round());
+    let (dq, dr, ds) = ((rq - q).abs(), (rr - r).abs(), (rs + q + r).abs());
+    if dq > dr && dq > ds {
+        Hex::new(-(rr as i64) - rs as i64, rr as i64)
+    } else if dr > ds {
+        Hex::new(rq as i64, -(rq as i64) - rs as i64)
+    } else {
+        Hex::new(rq as i64, rr as i64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_hexagon_holds_its_own_centre() {
+        let lattice = Lattice::new(DVec2::new(0.3, -7.1), 1.7);
+        for level in [0, 1, 5, 20] {
+            for hex in Hex::new(11, -5).disc(4) {
+                let at = lattice.locate(level, lattice.position(Address::new(level, hex)));
+                assert_eq!(at.hex, hex);
+            }
+        }
+    }
+
+    #[test]
+    fn deep_levels_resolve_what_the_point_resolves() {
+        // 45 levels down, next to a corner of the domain whose own
+        // coordinates are small: the grid is as fine as the coordinates are.
+        let lattice = Lattice::new(DVec2::new(0.5, 0.25), 1.0);
+        let p = DVec2::new(1.234e-15, -3.21e-16);
+        let at = lattice.locate(45, p);
+        let back = lattice.position(Address::new(45, at.hex)) + at.offset * lattice.spacing(45);
+        assert!((back - p).length() < 1e-27, "{back} {p}");
+        assert!(hexagonal_norm(at.offset) <= 0.5 + 1e-12);
+    }
+
+    #[test]
+    fn offsets_stay_within_the_cell() {
+        let lattice = Lattice::new(DVec2::ZERO, 1.0);
+        for i in 0..1000 {
+            let p = DVec2::new(f64::from(i) * 0.0137 - 5.0, f64::from(i * 7 % 1000) * 0.011 - 4.0);
+            for level in 0..12 {
+                assert!(hexagonal_norm(lattice.locate(level, p).offset) <= 0.5 + 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,381 @@
+//! The sparse store of hexagon sets: tiles of 8 x 8 hexagons in a quadtree.
+//!
+//! A tile covers the same lattice square of its level as four tiles of the
+//! next finer level, so the tiles form a quadtree. Neighbouring tiles are
+//! linked when they are made, found through the parents' links; no tile is
+//! ever looked up by hashing, except the few roots.
+
+use crate::axial::Hex;
+use crate::window::Window;
+use rustc_hash::FxHashMap;
+
+/// Hexagons along a tile's side.
+pub const SIDE: i64 = 8;
+
+/// Index of a tile within its level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TileId(u32);
+
+impl TileId {
+    const NONE: Self = Self(u32::MAX);
+
+    /// The id of the tile at `index` of its level.
+    #[inline]
+    pub const fn new(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    /// The position in the level's array.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    #[inline]
+    fn some(self) -> Option<Self> {
+        (self != Self::NONE).then_some(self)
+    }
+}
+
+/// Eight by eight hexagons of one level. Bit `8 r + q` of each plane is the
+/// hexagon `(q, r)` counted from the tile's first.
+#[derive(Clone, Debug)]
+pub struct Tile {
+    /// The hexagons that are subdivided.
+    pub subdivided: u64,
+    /// The hexagons that the next finer level needs subdivided.
+    pub needed: u64,
+    /// Two planes whose meaning the layers above define.
+    pub marks: [u64; 2],
+    /// Tile coordinates: the first hexagon's address divided by [`SIDE`].
+    position: (i64, i64),
+    /// The tile one level coarser whose square holds this one; `NONE` at
+    /// level 0 only.
+    parent: TileId,
+    /// The four tiles one level finer within this square, `2 row + column`.
+    children: [TileId; 4],
+    /// The 3 x 3 tiles around, `3 row + column`, itself in the middle. Mutual:
+    /// a tile that exists is linked by all its existing neighbours.
+    around: [TileId; 9],
+}
+
+impl Tile {
+    /// The address of the tile's first hexagon.
+    #[inline]
+    pub const fn first(&self) -> Hex {
+        Hex::new(self.position.0 * SIDE, self.position.1 * SIDE)
+    }
+}
+
+/// All tiles of all levels.
+#[derive(Clone, Debug, Default)]
+pub struct Tiles {
+    /// The tiles of each level in the order they were made; ids are indices.
+    levels: Vec<Vec<Tile>>,
+    /// Tiles of level 0 by position.
+    roots: FxHashMap<(i64, i64), TileId>,
+}
+
+impl Tiles {
+    /// One more than the finest level that holds a tile.
+    pub fn levels(&self) -> usize {
+        self.levels.len()
+    }
+
+    /// The tiles of a level, by id; none where the level is finer than all.
+    pub fn level(&self, level: u8) -> &[Tile] {
+        self.levels.get(usize::from(level)).map_or(&[], Vec::as_slice)
+    }
+
+    /// A tile.
+    ///
+    /// # Panics
+    ///
+    /// If `id` is not of `level`.
+    #[inline]
+    pub fn get(&self, level: u8, id: TileId) -> &Tile {
+        &self.levels[usize::from(level)][id.index()]
+    }
+
+    /// A tile, to change its planes.
+    ///
+    /// # Panics
+    ///
+    /// If `id` is not of `level`.
+    #[inline]
+    pub fn get_mut(&mut self, level: u8, id: TileId) -> &mut Tile {
+        &mut self.levels[usize::from(level)][id.index()]
+    }
+
+    /// The tile that holds a hexagon and the hexagon's bit in it, if there is
+    /// such a tile. Takes one step per level.
+    pub fn find(&self, level: u8, hex: Hex) -> Option<(TileId, u32)> {
+        let (position, bit) = split(hex);
+        let up = |k: u8| (position.0 >> k, position.1 >> k);
+        let mut id = *self.roots.get(&up(level))?;
+        for k in (0..level).rev() {
+            let p = up(k);
+            id = self.levels[usize::from(level - k - 1)][id.index()].children[quadrant(p)].some()?;
+        }
+        Some((id, bit))
+    }
+
+    /// The tile that holds a hexagon, made if it does not exist, and the
+    /// hexagon's bit in it. Takes one step per level.
+    pub fn require(&mut self, level: u8, hex: Hex) -> (TileId, u32) {
+        let (position, bit) = split(hex);
+        let mut id = self.require_root((position.0 >> level, position.1 >> level));
+        for k in (0..level).rev() {
+            id = self.require_child(level - k - 1, id, quadrant((position.0 >> k, position.1 >> k)));
+        }
+        (id, bit)
+    }
+
+    /// The same as [`require`](Self::require), faster if the hexagon lies in the
+    /// tile `hint` or beside it.
+    #[inline]
+    pub fn require_near(&mut self, level: u8, hint: TileId, hex: Hex) -> (TileId, u32) {
+        let (position, bit) = split(hex);
+        let from = self.get(level, hint).position;
+        let (column, row) = (position.0 - from.0, position.1 - from.1);
+        if column.abs() <= 1 && row.abs() <= 1 {
+            (self.require_beside(level, hint, column, row), bit)
+        } else {
+            self.require(level, hex)
+        }
+    }
+
+    /// One of the 3 x 3 tiles around, `column` and `row` from -1 to 1.
+    #[inline]
+    pub fn beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
+        self.get(level, id).around[(3 * (row + 1) + column + 1) as usize].some()
+    }
+
+    /// The existing tiles among the 3 x 3 around, itself included.
+    pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
+        self.get(level, id).around.into_iter().filter_map(TileId::some)
+    }
+
+    /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
+    /// to 1.
+    pub fn require_beside(&mut self, level: u8, id: TileId, column: i64, row: i64) -> TileId {
+        if let Some(there) = self.beside(level, id, column, row) {
+            return there;
+        }
+        let tile = self.get(level, id);
+        let position = (tile.position.0 + column, tile.position.1 + row);
+        if level == 0 {
+            return self.require_root(position);
+        }
+        let parent = tile.parent;
+        let from = self.get(level - 1, parent).position;
+        let parent =
+            self.require_beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
+        self.require_child(level - 1, parent, quadrant(position))
+    }
+
+    /// The tile one level finer in one quarter of this one's square,
+    /// `quadrant` = `2 row + column`.
+    #[inline]
+    pub fn child(&self, level: u8, id: TileId, quadrant: usize) -> Option<TileId> {
+        self.get(level, id).children[quadrant].some()
+    }
+
+    /// Makes the tile one level finer in one quarter of this one's square.
+    pub fn require_child(&mut self, level: u8, id: TileId, quadrant: usize) -> TileId {
+        if let Some(child) = self.child(level, id, quadrant) {
+            return child;
+        }
+        let (q, r) = self.get(level, id).position;
+        let position = (2 * q + (quadrant as i64 & 1), 2 * r + (quadrant as i64 >> 1));
+        let child = self.push(level + 1, position, id);
+        self.get_mut(level, id).children[quadrant] = child;
+        self.link(level + 1, child);
+        child
+    }
+
+    /// The tile one level coarser and the quarter of it that this one covers,
+    /// `2 row + column`; `None` at level 0.
+    #[inline]
+    pub fn parent(&self, level: u8, id: TileId) -> Option<(TileId, usize)> {
+        let tile = self.get(level, id);
+        Some((tile.parent.some()?, quadrant(tile.position)))
+    }
+
+    /// The window of a tile for one plane.
+    #[inline]
+    pub fn window(&self, level: u8, id: TileId, plane: impl Fn(&Tile) -> u64) -> Window {
+        let tiles = &self.levels[usize::from(level)];
+        let around = &tiles[id.index()].around;
+        let bits = |i: usize| around[i].some().map_or(0, |t| plane(&tiles[t.index()]));
+        Window::gather(&[
+            [bits(0), bits(1), bits(2)],
+            [bits(3), bits(4), bits(5)],
+            [bits(6), bits(7), bits(8)],
+        ])
+    }
+
+    /// The windows of a tile for several planes at once.
+    #[inline]
+    pub fn windows<const N: usize>(
+        &self,
+        level: u8,
+        id: TileId,
+        planes: impl Fn(&Tile) -> [u64; N],
+    ) -> [Window; N] {
+        let tiles = &self.levels[usize::from(level)];
+        let around = &tiles[id.index()].around;
+        let mut bits = [[[0; 3]; 3]; N];
+        let mut any = [0; N];
+        for (i, there) in around.iter().enumerate() {
+            if let Some(there) = there.some() {
+                for (plane, word) in planes(&tiles[there.index()]).into_iter().enumerate() {
+                    bits[plane][i / 3][i % 3] = word;
+                    any[plane] |= word;
+                }
+            }
+        }
+        std::array::from_fn(
+            |plane| {
+                if any[plane] == 0 { Window::EMPTY } else { Window::gather(&bits[plane]) }
+            },
+        )
+    }
+
+    /// Makes the tiles exist whose window reaches one of `bits`, those within
+    /// [`Window::MARGIN`] hexagons, and calls `with` for each of them, the tile
+    /// itself included.
+    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64, mut with: impl FnMut(TileId)) {
+        // A bit in a half of the tile is within four hexagons of the tile
+        // beyond that half's side.
+        const LEFT: u64 = 0x0f0f_0f0f_0f0f_0f0f;
+        const LOW: u64 = 0x0000_0000_ffff_ffff;
+        for (row, rows) in [(-1, LOW), (0, u64::MAX), (1, !LOW)] {
+            for (column, columns) in [(-1, LEFT), (0, u64::MAX), (1, !LEFT)] {
+                if bits & rows & columns != 0 {
+                    with(self.require_beside(level, id, column, row));
+                }
+            }
+        }
+    }
+
+    fn require_root(&mut self, position: (i64, i64)) -> TileId {
+        if let Some(&root) = self.roots.get(&position) {
+            return root;
+        }
+        let root = self.push(0, position, TileId::NONE);
+        self.roots.insert(position, root);
+        self.link(0, root);
+        root
+    }
+
+    fn push(&mut self, level: u8, position: (i64, i64), parent: TileId) -> TileId {
+        let level = usize::from(level);
+        if level == self.levels.len() {
+            self.levels.push(Vec::new());
+        }
+        let id = TileId::new(self.levels[level].len());
+        self.levels[level].push(Tile {
+            subdivided: 0,
+            needed: 0,
+            marks: [0; 2],
+            position,
+            parent,
+            children: [TileId::NONE; 4],
+            around: [TileId::NONE; 9],
+        });
+        id
+    }
+
+    /// Links a new tile and its existing neighbours with each other.
+    fn link(&mut self, level: u8, id: TileId) {
+        for i in 0..9 {
+            let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
+            if let Some(other) = self.find_beside(level, id, column, row) {
+                self.get_mut(level, id).around[i] = other;
+                self.get_mut(level, other).around[8 - i] = id;
+            }
+        }
+    }
+
+    /// A neighbour found through the parents, for a tile not linked yet.
+    fn find_beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
+        let tile = self.get(level, id);
+        let position = (tile.position.0 + column, tile.position.1 + row);
+        let Some(parent) = tile.parent.some() else {
+            return self.roots.get(&position).copied();
+        };
+        let from = self.get(level - 1, parent).position;
+        let parent =
+            self.beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1)?;
+        self.child(level - 1, parent, quadrant(position))
+    }
+}
+
+/// The tile position of a hexagon and its bit within the tile.
+#[inline]
+fn split(hex: Hex) -> ((i64, i64), u32) {
+    let bit = 8 * (hex.r & 7) + (hex.q & 7);
+    ((hex.q >> 3, hex.r >> 3), bit as u32)
+}
+
+/// Which quarter of its parent's square a tile covers.
+#[inline]
+fn quadrant(position: (i64, i64)) -> usize {
+    ((position.1 & 1) * 2 + (position.0 & 1)) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_do_not_depend_on_the_order_of_making() {
+        let hexes: Vec<_> = Hex::new(-3, 5).disc(30).collect();
+        for stride in [1, 7, 11] {
+            let mut tiles = Tiles::default();
+            for i in 0..hexes.len() {
+                tiles.require(3, hexes[i * stride % hexes.len()]);
+            }
+            for &h in &hexes {
+                let (id, _) = tiles.find(3, h).unwrap();
+                for i in 0..9 {
+                    let (column, row) = (i % 3 - 1, i / 3 - 1);
+                    let there = h + Hex::new(SIDE * column, SIDE * row);
+                    assert_eq!(tiles.beside(3, id, column, row), tiles.find(3, there).map(|(t, _)| t));
+                    assert_eq!(Some(tiles.require_near(3, id, h)), tiles.find(3, h));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn windows_show_the_hexagons_around_a_tile() {
+        let mut tiles = Tiles::default();
+        let set: Vec<_> = Hex::new(4, 4).disc(9).filter(|h| (h.q * 5 + h.r * 3) % 4 == 0).collect();
+        for &h in &set {
+            let (id, bit) = tiles.require(2, h);
+            tiles.get_mut(2, id).subdivided |= 1 << bit;
+        }
+        let (id, _) = tiles.find(2, Hex::ORIGIN).unwrap();
+        let window = tiles.window(2, id, |t| t.subdivided);
+        for at in Window::with_margin(4).iter() {
+            assert_eq!(window.contains(at), set.contains(&at), "{at:?}");
+        }
+    }
+
+    #[test]
+    fn margins_are_made_where_bits_reach_them() {
+        let mut tiles = Tiles::default();
+        let (id, bit) = tiles.require(1, Hex::new(1, 6));
+        let mut reached = Vec::new();
+        tiles.require_margin(1, id, 1 << bit, |tile| reached.push(tile));
+        assert_eq!(reached.len(), tiles.level(1).len());
+        let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
+        let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
+        let mut made_sorted = made;
+        made_sorted.sort();
+        expected.sort();
+        assert_eq!(made_sorted, expected);
+    }
+}

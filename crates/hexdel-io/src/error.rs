@@ -1,0 +1,316 @@
+//! What can go wrong with a file, with the file, the line and the item named.
+
+use std::io;
+use std::path::Path;
+
+use hexdel_geom::PslgLayoutError;
+use thiserror::Error;
+
+/// Why a file was not read.
+///
+/// Lines are counted from 1. Whatever is quoted from the file is cut to
+/// a readable length.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// There is no such file.
+    #[error("{file}: no such file")]
+    Missing {
+        /// The file asked for, or the one that must lie beside it.
+        file: String,
+    },
+    /// The system refused to open or read the file.
+    #[error("{file}: {source}")]
+    Io {
+        /// The file.
+        file: String,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file name does not tell a format that can be read here.
+    #[error("{file}: unknown extension, expected one of {known}")]
+    UnknownExtension {
+        /// The file.
+        file: String,
+        /// The extensions that can be read.
+        known: &'static str,
+    },
+    /// The line is not UTF-8 text.
+    #[error("{file}:{line}: not UTF-8 text")]
+    NotUtf8 {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+    },
+    /// The line is longer than any line of the format.
+    #[error("{file}:{line}: line longer than {limit} bytes")]
+    LineTooLong {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// The longest line accepted, bytes.
+        limit: usize,
+    },
+    /// A field is missing, superfluous or of the wrong kind.
+    #[error("{file}:{line}: expected {expected}, found {found}")]
+    Malformed {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// What should be there.
+        expected: &'static str,
+        /// What is there: the field in quotation marks, or "end of line".
+        found: String,
+    },
+    /// A coordinate is infinite, not a number, or beyond the range of a double.
+    #[error("{}: coordinate {found} of {item} {index} is not finite", at(file, *line))]
+    NonFinite {
+        /// The file.
+        file: String,
+        /// The line; 0 if the format does not tell.
+        line: u64,
+        /// "point", "hole" or "region".
+        item: &'static str,
+        /// Its index, counted as the file does (from 0 in tables).
+        index: u64,
+        /// The coordinate as written.
+        found: String,
+    },
+    /// The file ends before a section's header.
+    #[error("{file}:{line}: file ends before the number of {section}")]
+    MissingSection {
+        /// The file.
+        file: String,
+        /// The last row of the section before, 0 if there is none.
+        line: u64,
+        /// What the section would have held.
+        section: &'static str,
+    },
+    /// The file ends before all announced rows.
+    #[error("{file}:{line}: file ends after {found} of {expected} {section}")]
+    Truncated {
+        /// The file.
+        file: String,
+        /// The last line of the file.
+        line: u64,
+        /// What the rows hold.
+        section: &'static str,
+        /// How many the header announces.
+        expected: u64,
+        /// How many there are.
+        found: u64,
+    },
+    /// There is text after the last announced row.
+    #[error("{file}:{line}: expected the end of the file after the {section}, found {found}")]
+    TrailingRow {
+        /// The file.
+        file: String,
+        /// The first such line.
+        line: u64,
+        /// The section that should have been the last.
+        section: &'static str,
+        /// The first field of the line, in quotation marks.
+        found: String,
+    },
+    /// Rows are not numbered consecutively, from 0 or 1.
+    #[error("{file}:{line}: expected row number {expected}, found {found}")]
+    NonConsecutive {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// The row number that was due.
+        expected: u64,
+        /// The row number that is there.
+        found: i64,
+    },
+    /// A segment or triangle refers to a point that is not there.
+    #[error("{}: no point {index}, there are {points} counted from {first}", at(file, *line))]
+    IndexOutOfRange {
+        /// The file.
+        file: String,
+        /// The line; 0 if the format does not tell.
+        line: u64,
+        /// The index as written.
+        index: i64,
+        /// The index of the first point, 0 or 1.
+        first: u64,
+        /// How many points there are.
+        points: u64,
+    },
+    /// The points of a `.poly` file lie in a `.node` file, but no file system was
+    /// given to look for it.
+    #[error("{file}:{line}: the points are in another file")]
+    PointsElsewhere {
+        /// The file.
+        file: String,
+        /// The line that says so.
+        line: u64,
+    },
+    /// More points or triangles than 32-bit indices can tell apart.
+    #[error("{file}:{line}: more than {limit} {section}")]
+    TooMany {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// What there is too much of.
+        section: &'static str,
+        /// How many can be held.
+        limit: u64,
+    },
+    /// The text is no RON, or not that of a mesh.
+    #[error("{file}:{line}:{column}: {message}")]
+    Ron {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// The column, counted from 1.
+        column: u64,
+        /// What the parser says.
+        message: String,
+    },
+}
+
+impl ReadError {
+    /// The line at fault, counted from 1, if it is known.
+    pub fn line(&self) -> Option<u64> {
+        let line = match self {
+            Self::Missing { .. } | Self::Io { .. } | Self::UnknownExtension { .. } => 0,
+            Self::NotUtf8 { line, .. }
+            | Self::LineTooLong { line, .. }
+            | Self::Malformed { line, .. }
+            | Self::NonFinite { line, .. }
+            | Self::MissingSection { line, .. }
+            | Self::Truncated { line, .. }
+            | Self::TrailingRow { line, .. }
+            | Self::NonConsecutive { line, .. }
+            | Self::IndexOutOfRange { line, .. }
+            | Self::PointsElsewhere { line, .. }
+            | Self::TooMany { line, .. }
+            | Self::Ron { line, .. } => *line,
+        };
+        (line > 0).then_some(line)
+    }
+
+    pub(crate) fn open(path: &Path, source: io::Error) -> Self {
+        let file = path.display().to_string();
+        if source.kind() == io::ErrorKind::NotFound {
+            Self::Missing { file }
+        } else {
+            Self::Io { file, source }
+        }
+    }
+}
+
+/// File and, if it is known, line.
+fn at(file: &str, line: u64) -> String {
+    match line {
+        0 => file.to_owned(),
+        _ => format!("{file}:{line}"),
+    }
+}
+
+/// Why a file was not written.
+///
+/// A file of that name from before, if any, is untouched.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The system refused.
+    #[error("{file}: {source}")]
+    Io {
+        /// The file.
+        file: String,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file name does not tell a format that can be written here.
+    #[error("{file}: unknown extension, expected one of {known}")]
+    UnknownExtension {
+        /// The file.
+        file: String,
+        /// The extensions that can be written.
+        known: &'static str,
+    },
+    /// Something other than a plain file has the name, a directory or a device.
+    #[error("{file}: not a plain file, will not be replaced")]
+    NotAFile {
+        /// The path.
+        file: String,
+    },
+    /// The format takes two files, but one stream was given.
+    #[error("{file}: the format {format} takes two files")]
+    TwoFiles {
+        /// The name of the stream.
+        file: String,
+        /// The format.
+        format: &'static str,
+    },
+    /// The format does not hold segments, holes or regions.
+    #[error("{file}: the format holds points only, not {item}")]
+    PointsOnly {
+        /// The file.
+        file: String,
+        /// What would be lost.
+        item: &'static str,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("{file}: {item} {index} at ({x}, {y}) is not finite")]
+    NonFinite {
+        /// The file.
+        file: String,
+        /// "point", "vertex", "hole", "region" or "polygon".
+        item: &'static str,
+        /// Its index.
+        index: usize,
+        /// Its coordinates.
+        x: f64,
+        /// Its coordinates.
+        y: f64,
+    },
+    /// A triangle or polygon refers to something that is not there.
+    #[error("{file}: {item} {index} refers to number {target} of {count}")]
+    IndexOutOfRange {
+        /// The file.
+        file: String,
+        /// "triangle", "segment" or "polygon".
+        item: &'static str,
+        /// Its index.
+        index: usize,
+        /// The vertex or class it names.
+        target: usize,
+        /// How many vertices or classes there are.
+        count: usize,
+    },
+    /// The arrays of the graph do not fit together.
+    #[error("{file}: {source}")]
+    Layout {
+        /// The file.
+        file: String,
+        /// Which do not.
+        source: PslgLayoutError,
+    },
+    /// An array has neither one entry per item nor none.
+    #[error("{file}: {found} {array} instead of {expected}")]
+    Length {
+        /// The file.
+        file: String,
+        /// What the array holds.
+        array: &'static str,
+        /// The length that would fit.
+        expected: usize,
+        /// The length it has.
+        found: usize,
+    },
+}
+
+impl WriteError {
+    pub(crate) fn io(file: &str) -> impl Fn(io::Error) -> Self {
+        move |source| Self::Io { file: file.to_owned(), source }
+    }
+}

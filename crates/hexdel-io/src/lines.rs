@@ -1,0 +1,221 @@
+//! A bounded line reader and the fields of a line, with errors that name both.
+//!
+//! Nothing here trusts the file: memory is bounded by [`MAX_LINE`] whatever the
+//! file holds. What the fields mean is left to the formats.
+
+use std::io::{BufRead, Read};
+use std::str::SplitAsciiWhitespace;
+
+use hexdel_geom::DVec2;
+
+use crate::error::ReadError;
+
+/// The longest line accepted, in bytes. A row of coordinates takes about 60, so
+/// this leaves room for tens of thousands of attributes per point.
+pub(crate) const MAX_LINE: usize = 1 << 20;
+
+/// The longest quotation from a file in an error, in characters.
+const MAX_QUOTE: usize = 40;
+
+/// Where a `#` begins a comment.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Comments {
+    /// Anywhere in a line, as in Triangle's files.
+    Anywhere,
+    /// As the first character that is no space: tables have text columns.
+    WholeLine,
+}
+
+/// Reads the lines of a file that hold more than comments.
+pub(crate) struct Lines<R> {
+    reader: R,
+    file: String,
+    comments: Comments,
+    buffer: Vec<u8>,
+    /// Number of the line in `buffer`, from 1; 0 before the first.
+    number: u64,
+}
+
+impl<R: BufRead> Lines<R> {
+    pub(crate) fn new(reader: R, file: &str, comments: Comments) -> Self {
+        Self { reader, file: file.to_owned(), comments, buffer: Vec::new(), number: 0 }
+    }
+
+    pub(crate) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The number of the line last read.
+    pub(crate) fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// The next line with something on it, trimmed, without comment.
+    pub(crate) fn next_row(&mut self) -> Result<Option<Row<'_>>, ReadError> {
+        while self.fill()? {
+            let start = self.buffer.trim_ascii_start().len();
+            if start > 0 && !self.buffer.trim_ascii_start().starts_with(b"#") {
+                return self.row().map(Some);
+            }
+            // A comment must be text as well: a binary file is not to be taken
+            // for one of comments only.
+            self.text()?;
+        }
+        Ok(None)
+    }
+
+    fn row(&self) -> Result<Row<'_>, ReadError> {
+        let mut text = self.text()?;
+        if self.comments == Comments::Anywhere
+            && let Some(at) = text.find('#')
+        {
+            text = &text[..at];
+        }
+        Ok(Row { file: &self.file, line: self.number, text: text.trim_ascii() })
+    }
+
+    fn text(&self) -> Result<&str, ReadError> {
+        std::str::from_utf8(&self.buffer)
+            .map_err(|_| ReadError::NotUtf8 { file: self.file.clone(), line: self.number })
+    }
+
+    /// Reads one line without its end into the buffer; false at the end of file.
+    fn fill(&mut self) -> Result<bool, ReadError> {
+        const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+        self.buffer.clear();
+        let mut bounded = self.reader.by_ref().take(MAX_LINE as u64 + 1);
+        let read = bounded.read_until(b'\n', &mut self.buffer);
+        let length = read.map_err(|source| ReadError::Io { file: self.file.clone(), source })?;
+        if length == 0 {
+            return Ok(false);
+        }
+        self.number += 1;
+        if length > MAX_LINE {
+            return Err(ReadError::LineTooLong {
+                file: self.file.clone(),
+                line: self.number,
+                limit: MAX_LINE,
+            });
+        }
+        if self.number == 1 && self.buffer.starts_with(BYTE_ORDER_MARK) {
+            self.buffer.drain(..BYTE_ORDER_MARK.len());
+        }
+        Ok(true)
+    }
+}
+
+/// One line.
+#[derive(Clone, Copy)]
+pub(crate) struct Row<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) line: u64,
+    pub(crate) text: &'a str,
+}
+
+impl<'a> Row<'a> {
+    /// The fields between white space.
+    pub(crate) fn fields(self) -> Fields<'a> {
+        Fields { row: self, rest: self.text.split_ascii_whitespace() }
+    }
+
+    /// The number in `field`.
+    pub(crate) fn number(&self, field: Option<&str>, expected: &'static str) -> Result<f64, ReadError> {
+        let number = field.and_then(|text| text.parse().ok());
+        number.ok_or_else(|| self.malformed(expected, field))
+    }
+
+    /// The position whose coordinates are the two `fields`.
+    pub(crate) fn position(
+        &self,
+        fields: [Option<&str>; 2],
+        item: &'static str,
+        index: u64,
+    ) -> Result<DVec2, ReadError> {
+        let x = self.number(fields[0], "the x coordinate")?;
+        let y = self.number(fields[1], "the y coordinate")?;
+        let bad = [x, y].iter().position(|c| !c.is_finite());
+        match bad {
+            None => Ok(DVec2::new(x, y)),
+            Some(axis) => Err(ReadError::NonFinite {
+                file: self.file.to_owned(),
+                line: self.line,
+                item,
+                index,
+                found: clip(fields[axis].unwrap_or_default()),
+            }),
+        }
+    }
+
+    pub(crate) fn malformed(&self, expected: &'static str, found: Option<&str>) -> ReadError {
+        ReadError::Malformed {
+            file: self.file.to_owned(),
+            line: self.line,
+            expected,
+            found: found.map_or_else(|| "end of line".to_owned(), quote),
+        }
+    }
+}
+
+/// The fields of a line that are still to be read.
+pub(crate) struct Fields<'a> {
+    pub(crate) row: Row<'a>,
+    rest: SplitAsciiWhitespace<'a>,
+}
+
+impl<'a> Fields<'a> {
+    /// The next field as it stands, if there is one.
+    pub(crate) fn text(&mut self) -> Option<&'a str> {
+        self.rest.next()
+    }
+
+    /// The next field as an integer.
+    pub(crate) fn integer<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, ReadError> {
+        let field = self.text();
+        let integer = field.and_then(|text| text.parse().ok());
+        integer.ok_or_else(|| self.row.malformed(expected, field))
+    }
+
+    /// The next field as an integer, `default` at the end of the line.
+    pub(crate) fn integer_or<T: std::str::FromStr>(
+        &mut self,
+        default: T,
+        expected: &'static str,
+    ) -> Result<T, ReadError> {
+        if self.rest.clone().next().is_none() {
+            return Ok(default);
+        }
+        self.integer(expected)
+    }
+
+    /// The next field as a number.
+    pub(crate) fn number(&mut self, expected: &'static str) -> Result<f64, ReadError> {
+        let field = self.text();
+        self.row.number(field, expected)
+    }
+
+    /// The next two fields as a position.
+    pub(crate) fn position(&mut self, item: &'static str, index: u64) -> Result<DVec2, ReadError> {
+        let fields = [self.text(), self.text()];
+        self.row.position(fields, item, index)
+    }
+
+    /// Checks that nothing is left.
+    pub(crate) fn end(mut self) -> Result<(), ReadError> {
+        match self.text() {
+            None => Ok(()),
+            extra => Err(self.row.malformed("end of line", extra)),
+        }
+    }
+}
+
+/// `text` in quotation marks, cut to a readable length.
+pub(crate) fn quote(text: &str) -> String {
+    format!("\"{}\"", clip(text))
+}
+
+fn clip(text: &str) -> String {
+    match text.char_indices().nth(MAX_QUOTE) {
+        Some((end, _)) => format!("{}..", &text[..end]),
+        None => text.to_owned(),
+    }
+}

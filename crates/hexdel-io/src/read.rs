@@ -1,0 +1,142 @@
+//! Reading files: which reader for which format, and the files beside a file.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use hexdel_geom::{Pslg, TriMesh};
+
+use crate::error::ReadError;
+use crate::format::{MeshFormat, PointFormat};
+use crate::triangle::PointRange;
+use crate::{mesh_ron, table, triangle};
+
+/// Reads points, and segments, holes and regions if the format has them.
+///
+/// A `.poly` file that announces 0 points has them in the `.node` file beside it.
+///
+/// # Errors
+///
+/// Every [`ReadError`]; file, line and item are named.
+///
+/// # Complexity
+///
+/// Linear in the size of the file; memory in proportion to what was read, never
+/// to what a header claims.
+pub fn read_points(path: impl AsRef<Path>) -> Result<Pslg, ReadError> {
+    let path = path.as_ref();
+    let name = path.display().to_string();
+    let Some(format) = PointFormat::from_path(path) else {
+        return Err(ReadError::UnknownExtension { file: name, known: PointFormat::EXTENSIONS });
+    };
+    let reader = open(path)?;
+    if format == PointFormat::Poly {
+        return triangle::read_poly(reader, &name, |_| read_nodes(&beside(path, "node")));
+    }
+    read_points_from(reader, format, &name)
+}
+
+/// Reads points from anything that can be read, `name` being what errors call it.
+///
+/// # Errors
+///
+/// As [`read_points`], and [`ReadError::PointsElsewhere`] for a `.poly` text
+/// without points.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_io::{PointFormat, read_points_from};
+///
+/// let pslg = read_points_from("x,y\n0.5,1\n".as_bytes(), PointFormat::Table, "inline")?;
+/// assert_eq!(pslg.points[0].x, 0.5);
+///
+/// let error = read_points_from("1 2\n0 0.5 NaN\n".as_bytes(), PointFormat::Node, "a.node");
+/// assert_eq!(
+///     error.unwrap_err().to_string(),
+///     "a.node:2: coordinate NaN of point 0 is not finite",
+/// );
+/// # Ok::<(), hexdel_io::ReadError>(())
+/// ```
+pub fn read_points_from(reader: impl BufRead, format: PointFormat, name: &str) -> Result<Pslg, ReadError> {
+    match format {
+        PointFormat::Node => triangle::read_node(reader, name).map(|(pslg, _)| pslg),
+        PointFormat::Poly => triangle::read_poly(reader, name, |line| {
+            Err(ReadError::PointsElsewhere { file: name.to_owned(), line })
+        }),
+        PointFormat::Table => table::read_table(reader, name),
+    }
+}
+
+/// Reads a mesh, from `.ron` or a pair of `.node` and `.ele`, either of which may
+/// be named.
+///
+/// Attributes and markers are left. Nothing is promised about the triangles but
+/// that their corners exist: whoever needs more computes a certificate.
+///
+/// # Errors
+///
+/// Every [`ReadError`] but [`ReadError::PointsElsewhere`].
+///
+/// # Complexity
+///
+/// As [`read_points`].
+pub fn read_mesh(path: impl AsRef<Path>) -> Result<TriMesh, ReadError> {
+    let path = path.as_ref();
+    match MeshFormat::from_path(path) {
+        Some(MeshFormat::NodeEle) => {
+            let (points, range) = read_nodes(&beside(path, "node"))?;
+            let elements = beside(path, "ele");
+            let reader = open(&elements)?;
+            triangle::read_ele(reader, &elements.display().to_string(), points, range)
+        }
+        Some(MeshFormat::Ron) => mesh_ron::read_ron(open(path)?, &path.display().to_string()),
+        _ => {
+            Err(ReadError::UnknownExtension { file: path.display().to_string(), known: MeshFormat::READABLE })
+        }
+    }
+}
+
+/// Reads a mesh from the two texts of a `.node` and an `.ele` file, each with
+/// what errors call it.
+///
+/// # Errors
+///
+/// As [`read_mesh`].
+///
+/// # Examples
+///
+/// ```
+/// let nodes = "3 2\n1 0 0\n2 1 0\n3 0 1\n".as_bytes();
+/// let elements = "1\n1 1 2 3\n".as_bytes();
+/// let mesh = hexdel_io::read_mesh_from((nodes, "a.node"), (elements, "a.ele"))?;
+/// assert_eq!(mesh.triangles[0].map(|v| v.index()), [0, 1, 2]);
+/// # Ok::<(), hexdel_io::ReadError>(())
+/// ```
+pub fn read_mesh_from(
+    nodes: (impl BufRead, &str),
+    elements: (impl BufRead, &str),
+) -> Result<TriMesh, ReadError> {
+    let (points, range) = triangle::read_node(nodes.0, nodes.1)?;
+    triangle::read_ele(elements.0, elements.1, points, range)
+}
+
+fn read_nodes(path: &Path) -> Result<(Pslg, PointRange), ReadError> {
+    triangle::read_node(open(path)?, &path.display().to_string())
+}
+
+fn open(path: &Path) -> Result<BufReader<File>, ReadError> {
+    let file = File::open(path).map_err(|source| ReadError::open(path, source))?;
+    Ok(BufReader::with_capacity(1 << 16, file))
+}
+
+/// The file beside `path` with another extension. An extension in upper case asks
+/// for one in upper case, as file systems tell them apart.
+pub(crate) fn beside(path: &Path, extension: &str) -> std::path::PathBuf {
+    let own = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    if own.eq_ignore_ascii_case(extension) {
+        return path.to_owned();
+    }
+    let upper = !own.is_empty() && own.chars().all(|c| c.is_ascii_uppercase());
+    if upper { path.with_extension(extension.to_ascii_uppercase()) } else { path.with_extension(extension) }
+}

@@ -1,0 +1,309 @@
+//! Shewchuk's Triangle formats: reading `.node`, `.poly` and `.ele`.
+//!
+//! Each file is a sequence of sections, a header that counts rows and the rows,
+//! numbered consecutively from 0 or 1:
+//!
+//! ```text
+//! 4 2 1 1          points: count, dimension 2, attributes, markers (0 or 1)
+//! 1 0.0 0.0 7.5 1  index, x, y, attributes, marker
+//! ...
+//! 4 1              segments: count, markers
+//! 1 1 2 1          index, end points, marker
+//! ...
+//! 1                holes: count
+//! 1 0.5 0.5        index, x, y
+//! 1                regions: count (the section may be missing)
+//! 1 0.1 0.1 3 0.01 index, x, y, attribute, largest area (may be missing)
+//! ```
+//!
+//! Counts are taken as claims: rows are read until they fulfil it, memory grows
+//! with the rows that are there. Rows with more fields than announced are an
+//! error, as dropping them would lose data. A largest area that is not positive
+//! means none, as in Triangle.
+
+use std::io::BufRead;
+
+use hexdel_geom::{Pslg, Region, TriMesh, VertexId};
+
+use crate::error::ReadError;
+use crate::lines::{Comments, Fields, Lines, quote};
+
+/// The most items reserved on the word of a header, about a megabyte of points.
+const MAX_RESERVE: u64 = 1 << 16;
+
+/// The most points or triangles, so that 32-bit ids reach all of them.
+const MAX_ITEMS: u64 = u32::MAX as u64;
+
+/// How the points of a file are counted.
+#[derive(Clone, Copy)]
+pub(crate) struct PointRange {
+    /// Index of the first point: 0 or 1, `None` if there are no points.
+    first: Option<u64>,
+    count: u64,
+}
+
+/// Reads a `.node` file.
+pub(crate) fn read_node(reader: impl BufRead, file: &str) -> Result<(Pslg, PointRange), ReadError> {
+    let mut lines = Lines::new(reader, file, Comments::Anywhere);
+    let mut pslg = Pslg::default();
+    let range = point_section(&mut lines, &mut pslg)?;
+    end_of_file(&mut lines, "points")?;
+    Ok((pslg, range))
+}
+
+/// Reads a `.poly` file. `points_beside` is asked for the points if it has none.
+pub(crate) fn read_poly(
+    reader: impl BufRead,
+    file: &str,
+    points_beside: impl FnOnce(u64) -> Result<(Pslg, PointRange), ReadError>,
+) -> Result<Pslg, ReadError> {
+    let mut lines = Lines::new(reader, file, Comments::Anywhere);
+    let mut pslg = Pslg::default();
+    let mut range = point_section(&mut lines, &mut pslg)?;
+    if range.count == 0 {
+        (pslg, range) = points_beside(lines.number())?;
+    }
+    segment_section(&mut lines, &mut pslg, range)?;
+    hole_section(&mut lines, &mut pslg)?;
+    region_section(&mut lines, &mut pslg)?;
+    end_of_file(&mut lines, "regions")?;
+    Ok(pslg)
+}
+
+/// Reads the triangles of an `.ele` file to the points of its `.node` file.
+/// Attributes of triangles are checked to be numbers and left.
+pub(crate) fn read_ele(
+    reader: impl BufRead,
+    file: &str,
+    points: Pslg,
+    range: PointRange,
+) -> Result<TriMesh, ReadError> {
+    let mut lines = Lines::new(reader, file, Comments::Anywhere);
+    let mut mesh = TriMesh { vertices: points.points, triangles: Vec::new() };
+    let (section, mut header) = Section::begin(&mut lines, "triangles", MAX_ITEMS)?;
+    let corners = header.integer_or(3u64, "3 corners per triangle")?;
+    if corners != 3 {
+        let found = corners.to_string();
+        return Err(header.row.malformed("3 corners per triangle", Some(&found)));
+    }
+    let attributes = header.integer_or(0u64, "the number of attributes")?;
+    header.end()?;
+    mesh.triangles.reserve(section.reserve());
+    section.rows(&mut lines, |fields, _| {
+        let mut corner = || range.index(fields).map(|v| VertexId::new(v as usize));
+        mesh.triangles.push([corner()?, corner()?, corner()?]);
+        (0..attributes).try_for_each(|_| fields.number("an attribute").map(drop))
+    })?;
+    end_of_file(&mut lines, "triangles")?;
+    Ok(mesh)
+}
+
+fn point_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<PointRange, ReadError> {
+    let (section, mut header) = Section::begin(lines, "points", MAX_ITEMS)?;
+    let dimension = header.integer_or(2u64, "dimension 2")?;
+    if dimension != 2 {
+        let found = dimension.to_string();
+        return Err(header.row.malformed("dimension 2", Some(&found)));
+    }
+    let attributes = header.integer_or(0usize, "the number of attributes")?;
+    let markers = marker_column(&mut header)?;
+    header.end()?;
+
+    pslg.attributes_per_point = attributes;
+    pslg.points.reserve(section.reserve());
+    let count = section.count;
+    let first = section.rows(lines, |fields, index| {
+        pslg.points.push(fields.position("point", index)?);
+        for _ in 0..attributes {
+            pslg.point_attributes.push(fields.number("an attribute")?);
+        }
+        push_marker(fields, markers, &mut pslg.point_markers)
+    })?;
+    Ok(PointRange { first, count })
+}
+
+fn segment_section<R: BufRead>(
+    lines: &mut Lines<R>,
+    pslg: &mut Pslg,
+    range: PointRange,
+) -> Result<(), ReadError> {
+    let (section, mut header) = Section::begin(lines, "segments", u64::MAX)?;
+    let markers = marker_column(&mut header)?;
+    header.end()?;
+    pslg.segments.reserve(section.reserve());
+    section.rows(lines, |fields, _| {
+        let ends = [range.index(fields)?, range.index(fields)?];
+        pslg.segments.push(ends);
+        push_marker(fields, markers, &mut pslg.segment_markers)
+    })?;
+    Ok(())
+}
+
+fn hole_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<(), ReadError> {
+    let (section, header) = Section::begin(lines, "holes", u64::MAX)?;
+    header.end()?;
+    section.rows(lines, |fields, index| {
+        pslg.holes.push(fields.position("hole", index)?);
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn region_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<(), ReadError> {
+    let (section, header) = match Section::begin(lines, "regions", u64::MAX) {
+        Err(ReadError::MissingSection { .. }) => return Ok(()),
+        begun => begun?,
+    };
+    header.end()?;
+    section.rows(lines, |fields, index| {
+        let point = fields.position("region", index)?;
+        let attribute = fields.number("the attribute of a region")?;
+        let max_area = match fields.text() {
+            None => None,
+            area => {
+                let area = fields.row.number(area, "the largest area of a region")?;
+                (area > 0.0).then_some(area)
+            }
+        };
+        pslg.regions.push(Region { point, attribute, max_area });
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn marker_column(header: &mut Fields<'_>) -> Result<bool, ReadError> {
+    const EXPECTED: &str = "0 or 1 boundary markers";
+    match header.integer_or(0u64, EXPECTED)? {
+        0 => Ok(false),
+        1 => Ok(true),
+        more => Err(header.row.malformed(EXPECTED, Some(&more.to_string()))),
+    }
+}
+
+fn push_marker(fields: &mut Fields<'_>, present: bool, markers: &mut Vec<i32>) -> Result<(), ReadError> {
+    if present {
+        markers.push(fields.integer("a boundary marker")?);
+    }
+    Ok(())
+}
+
+fn end_of_file<R: BufRead>(lines: &mut Lines<R>, section: &'static str) -> Result<(), ReadError> {
+    let Some(row) = lines.next_row()? else {
+        return Ok(());
+    };
+    Err(ReadError::TrailingRow {
+        file: row.file.to_owned(),
+        line: row.line,
+        section,
+        found: quote(row.fields().text().unwrap_or_default()),
+    })
+}
+
+impl PointRange {
+    /// Reads the index of a point and counts it from 0.
+    fn index(self, fields: &mut Fields<'_>) -> Result<u32, ReadError> {
+        let index: i64 = fields.integer("the index of a point")?;
+        let first = self.first.unwrap_or(0);
+        let from_0 = u64::try_from(index).ok().and_then(|i| i.checked_sub(first));
+        match from_0.filter(|&i| i < self.count) {
+            Some(i) => Ok(i as u32),
+            None => Err(ReadError::IndexOutOfRange {
+                file: fields.row.file.to_owned(),
+                line: fields.row.line,
+                index,
+                first,
+                points: self.count,
+            }),
+        }
+    }
+}
+
+/// A header's claim of how many rows follow.
+struct Section {
+    name: &'static str,
+    count: u64,
+}
+
+impl Section {
+    /// Reads the count of a header; the fields are those after it.
+    fn begin<'l, R: BufRead>(
+        lines: &'l mut Lines<R>,
+        name: &'static str,
+        limit: u64,
+    ) -> Result<(Self, Fields<'l>), ReadError> {
+        let (file, last_line) = (lines.file().to_owned(), lines.number());
+        let Some(row) = lines.next_row()? else {
+            return Err(ReadError::MissingSection {
+                file,
+                // Blank lines and comments at the end are not what is missing
+                // something, the row before them is.
+                line: last_line,
+                section: name,
+            });
+        };
+        let mut fields = row.fields();
+        let count = fields.integer(count_of(name))?;
+        if count > limit {
+            return Err(ReadError::TooMany { file, line: row.line, section: name, limit });
+        }
+        Ok((Self { name, count }, fields))
+    }
+
+    /// How many items to reserve memory for.
+    fn reserve(&self) -> usize {
+        self.count.min(MAX_RESERVE) as usize
+    }
+
+    /// Reads all rows, numbered from 0 or 1, which is returned. `read` gets each
+    /// row without its number, and the number.
+    fn rows<R: BufRead>(
+        self,
+        lines: &mut Lines<R>,
+        mut read: impl FnMut(&mut Fields<'_>, u64) -> Result<(), ReadError>,
+    ) -> Result<Option<u64>, ReadError> {
+        let mut first = None;
+        for done in 0..self.count {
+            let Some(row) = lines.next_row()? else {
+                return Err(ReadError::Truncated {
+                    file: lines.file().to_owned(),
+                    line: lines.number(),
+                    section: self.name,
+                    expected: self.count,
+                    found: done,
+                });
+            };
+            let mut fields = row.fields();
+            let index = row_number(&mut fields, first.map(|first| first + done))?;
+            first.get_or_insert(index);
+            read(&mut fields, index)?;
+            fields.end()?;
+        }
+        Ok(first)
+    }
+}
+
+/// Reads the number of a row, which must be the one that is due, 0 or 1 in the
+/// first row.
+fn row_number(fields: &mut Fields<'_>, due: Option<u64>) -> Result<u64, ReadError> {
+    let found: i64 = fields.integer("the number of the row")?;
+    match (u64::try_from(found), due) {
+        (Ok(found @ (0 | 1)), None) => Ok(found),
+        (Ok(found), Some(due)) if found == due => Ok(found),
+        _ => Err(ReadError::NonConsecutive {
+            file: fields.row.file.to_owned(),
+            line: fields.row.line,
+            expected: due.unwrap_or(0),
+            found,
+        }),
+    }
+}
+
+fn count_of(section: &str) -> &'static str {
+    match section {
+        "points" => "the number of points",
+        "segments" => "the number of segments",
+        "holes" => "the number of holes",
+        "triangles" => "the number of triangles",
+        _ => "the number of regions",
+    }
+}

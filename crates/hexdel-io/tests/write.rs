@@ -1,0 +1,314 @@
+//! Written files: content of the formats that are not read back, and the promise
+//! of all or nothing.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+use std::fs;
+use std::path::Path;
+
+use hexdel_geom::{DVec2, Pslg, TriMesh, VertexId};
+use hexdel_io::{
+    MeshFormat, MeshView, Overlay, OverlayClass, Picture, Polygon, ReadError, Rgb, WriteError, read_mesh,
+    write_mesh, write_mesh_to, write_points,
+};
+
+/// `n` by `n` squares, each halved.
+fn squares(n: usize) -> TriMesh {
+    let vertex = |x: usize, y: usize| VertexId::new(y * (n + 1) + x);
+    let places = (0..=n).flat_map(|y| (0..=n).map(move |x| DVec2::new(x as f64, y as f64)));
+    let cells = (0..n).flat_map(|y| (0..n).map(move |x| (x, y)));
+    let triangles = cells.flat_map(|(x, y)| {
+        let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    TriMesh { vertices: places.collect(), triangles: triangles.collect() }
+}
+
+fn text(format: MeshFormat, view: &MeshView<'_>) -> String {
+    let mut out = Vec::new();
+    write_mesh_to(&mut out, format, view, "stream").unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_pair_of_files_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    write_mesh(folder.path().join("m.ele"), &MeshView::new(&squares(1))).unwrap();
+    assert_eq!(names(folder.path()), ["m.ele", "m.node"]);
+    let nodes = fs::read_to_string(folder.path().join("m.node")).unwrap();
+    assert_eq!(nodes, "4 2 0 0\n0 0.0 0.0\n1 1.0 0.0\n2 0.0 1.0\n3 1.0 1.0\n");
+    let elements = fs::read_to_string(folder.path().join("m.ele")).unwrap();
+    assert_eq!(elements, "2 3 0\n0 0 1 3\n1 0 3 2\n");
+}
+
+#[test]
+fn failure_leaves_the_old_file_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut mesh = squares(2);
+    for name in ["m.ele", "m.vtu", "m.ron", "m.svg"] {
+        let path = folder.path().join(name);
+        write_mesh(&path, &MeshView::new(&mesh)).unwrap();
+    }
+    let before = names(folder.path());
+    let old = fs::read(folder.path().join("m.vtu")).unwrap();
+
+    mesh.vertices[4].y = f64::NAN;
+    for name in ["m.ele", "m.vtu", "m.ron", "m.svg"] {
+        let error = write_mesh(folder.path().join(name), &MeshView::new(&mesh)).unwrap_err();
+        assert!(matches!(error, WriteError::NonFinite { item: "vertex", index: 4, .. }), "{error:?}");
+    }
+    // Fails in the middle of writing, when part of the file is there.
+    let failing = Failing;
+    let good = squares(2);
+    let view = MeshView::new(&good).with_certificate(&failing);
+    let error = write_mesh(folder.path().join("m.ron"), &view).unwrap_err();
+    assert!(matches!(error, WriteError::Io { .. }), "{error:?}");
+    assert!(error.to_string().contains("m.ron"), "{error}");
+
+    assert_eq!(names(folder.path()), before);
+    assert_eq!(fs::read(folder.path().join("m.vtu")).unwrap(), old);
+    assert_eq!(read_mesh(folder.path().join("m.ron")).unwrap(), squares(2));
+}
+
+/// A certificate that cannot be serialised.
+struct Failing;
+
+impl serde::Serialize for Failing {
+    fn serialize<S: serde::Serializer>(&self, _: S) -> Result<S::Ok, S::Error> {
+        Err(serde::ser::Error::custom("no certificate"))
+    }
+}
+
+#[test]
+fn if_one_of_a_pair_cannot_be_made_the_other_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("m.ele")).unwrap();
+    let error = write_mesh(folder.path().join("m.node"), &MeshView::new(&squares(1))).unwrap_err();
+    assert!(matches!(error, WriteError::NotAFile { .. }), "{error:?}");
+    assert_eq!(names(folder.path()), ["m.ele"]);
+}
+
+#[test]
+fn paths_that_cannot_be_written() {
+    let mesh = squares(1);
+    let view = MeshView::new(&mesh);
+    let error = write_mesh("no/such/folder/m.svg", &view).unwrap_err();
+    assert!(matches!(error, WriteError::Io { .. }), "{error:?}");
+    assert!(error.to_string().starts_with("no/such/folder/m.svg: "), "{error}");
+    let error = write_mesh("m.stl", &view).unwrap_err();
+    assert!(matches!(error, WriteError::UnknownExtension { .. }), "{error:?}");
+    let error = write_mesh_to(&mut Vec::new(), MeshFormat::NodeEle, &view, "-").unwrap_err();
+    assert!(matches!(error, WriteError::TwoFiles { .. }), "{error:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn links_stay_links_and_modes_stay_modes() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = tempfile::tempdir().unwrap();
+    let [file, link] = ["file.ron", "link.ron"].map(|name| folder.path().join(name));
+    fs::write(&file, "old").unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+    symlink(&file, &link).unwrap();
+    write_mesh(&link, &MeshView::new(&squares(1))).unwrap();
+    assert!(link.is_symlink());
+    assert_eq!(read_mesh(&file).unwrap(), squares(1));
+    assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    // A device is not to be replaced by a file.
+    symlink("/dev/null", folder.path().join("null.svg")).unwrap();
+    let error = write_mesh(folder.path().join("null.svg"), &MeshView::new(&squares(1)));
+    assert!(matches!(error, Err(WriteError::NotAFile { .. })));
+}
+
+#[test]
+fn views_that_do_not_fit() {
+    let mut mesh = squares(1);
+    let mut out = Vec::new();
+    let view = MeshView::new(&mesh).with_input_indices(&[None]);
+    let error = write_mesh_to(&mut out, MeshFormat::Vtu, &view, "v").unwrap_err();
+    assert_eq!(error.to_string(), "v: 1 input indices instead of 4");
+    mesh.triangles[1][2] = VertexId::new(4);
+    let error = write_mesh_to(&mut out, MeshFormat::Vtu, &MeshView::new(&mesh), "v").unwrap_err();
+    assert_eq!(error.to_string(), "v: triangle 1 refers to number 4 of 4");
+    assert!(out.is_empty());
+}
+
+#[test]
+fn points_that_would_be_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut pslg = Pslg::from_points(vec![DVec2::ZERO, DVec2::X]);
+    pslg.segments = vec![[0, 1]];
+    let error = write_points(folder.path().join("p.node"), &pslg).unwrap_err();
+    assert!(matches!(error, WriteError::PointsOnly { item: "segments", .. }));
+    pslg.segments = vec![[0, 2]];
+    let error = write_points(folder.path().join("p.poly"), &pslg).unwrap_err();
+    assert!(matches!(error, WriteError::Layout { .. }), "{error:?}");
+    pslg.segments.clear();
+    pslg.points[1].x = f64::INFINITY;
+    let error = write_points(folder.path().join("p.csv"), &pslg).unwrap_err();
+    assert!(matches!(error, WriteError::NonFinite { item: "point", index: 1, .. }));
+    assert!(names(folder.path()).is_empty());
+}
+
+/// The values of a data array of a `.vtu` file, decoded.
+fn array(vtu: &str, name: &str) -> Vec<u8> {
+    use base64::prelude::{BASE64_STANDARD, Engine};
+    let (_, rest) = vtu.split_once(&format!("Name=\"{name}\"")).unwrap();
+    let (_, rest) = rest.split_once(">\n").unwrap();
+    let (data, _) = rest.split_once("\n</DataArray>").unwrap();
+    let bytes = BASE64_STANDARD.decode(data).unwrap();
+    let (length, values) = bytes.split_first_chunk().unwrap();
+    assert_eq!(u64::from_le_bytes(*length), values.len() as u64);
+    values.to_vec()
+}
+
+fn words<T, const N: usize>(bytes: &[u8], from: fn([u8; N]) -> T) -> Vec<T> {
+    assert_eq!(bytes.len() % N, 0);
+    let chunks = bytes.chunks_exact(N);
+    chunks.map(|chunk| from(chunk.try_into().unwrap())).collect()
+}
+
+#[test]
+fn vtu_arrays() {
+    let mut mesh = squares(1);
+    mesh.vertices[2].x = -0.0;
+    let view = MeshView::new(&mesh).with_input_indices(&[Some(0), None, Some(u32::MAX), None]);
+    let vtu = text(MeshFormat::Vtu, &view);
+    assert!(vtu.contains("<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\">"));
+    let points = words(&array(&vtu, "Points"), f64::from_le_bytes);
+    assert_eq!(points, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
+    assert!(points[6].is_sign_negative());
+    let corners = words(&array(&vtu, "connectivity"), i32::from_le_bytes);
+    assert_eq!(corners, [0, 1, 3, 0, 3, 2]);
+    assert_eq!(words(&array(&vtu, "offsets"), i32::from_le_bytes), [3, 6]);
+    assert_eq!(array(&vtu, "types"), [5, 5]);
+    let inputs = words(&array(&vtu, "input_index"), i64::from_le_bytes);
+    assert_eq!(inputs, [0, -1, 4_294_967_295, -1]);
+    for (name, angle) in [("min_angle", 45.0), ("max_angle", 90.0)] {
+        for found in words(&array(&vtu, name), f64::from_le_bytes) {
+            assert!((found - angle).abs() < 1e-12, "{name} {found}");
+        }
+    }
+}
+
+#[test]
+fn ron_is_a_mesh_with_a_certificate() {
+    let mesh = squares(1);
+    let certificate = ("every angle", 43.9);
+    let view = MeshView::new(&mesh).with_certificate(&certificate);
+    let ron = text(MeshFormat::Ron, &view);
+    assert_eq!(ron::from_str::<TriMesh>(&ron).unwrap(), mesh);
+    assert!(ron.contains("certificate: Some((\"every angle\", 43.9))"), "{ron}");
+    assert!(ron.contains("    triangles: [\n        (0, 1, 3),\n"), "{ron}");
+}
+
+#[test]
+fn ron_that_is_no_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.ron");
+    let read = |text: &[u8]| {
+        fs::write(&path, text).unwrap();
+        read_mesh(&path).unwrap_err()
+    };
+    let error = read(b"(\n  vertices: [(0, 0)],\n  triangles: [(0, 0)],\n)");
+    assert!(matches!(error, ReadError::Ron { line: 3, .. }), "{error:?}");
+    let error = read(b"(\n  vertices: [(0, 0)],\n  triangles: [(0, 0, 1)],\n)");
+    assert!(matches!(error, ReadError::IndexOutOfRange { index: 1, points: 1, .. }), "{error:?}");
+    let error = read(b"(vertices: [(0, 0), (1, inf)], triangles: [])");
+    assert!(matches!(error, ReadError::NonFinite { index: 1, .. }), "{error:?}");
+    assert_eq!(error.line(), None);
+    let error = read(b"(\n\nvertices: \xff");
+    assert!(matches!(error, ReadError::NotUtf8 { line: 3, .. }), "{error:?}");
+    let error = read(b"");
+    assert!(matches!(error, ReadError::Ron { line: 1, .. }), "{error:?}");
+    let deep = "(".repeat(1_000_000);
+    let error = read(deep.as_bytes());
+    assert!(matches!(error, ReadError::Ron { .. }), "{error:?}");
+}
+
+#[test]
+fn svg_draws_every_triangle_point_and_label() {
+    let mesh = squares(8);
+    let indices: Vec<_> = (0..81).map(|i| (i < 9).then_some(i)).collect();
+    let svg = text(MeshFormat::Svg, &MeshView::new(&mesh).with_input_indices(&indices));
+    assert_eq!(svg.matches('M').count(), 128);
+    // Nine points and one in the legend.
+    assert_eq!(svg.matches("<circle").count(), 10);
+    for label in ["128 triangles", "angles 45.00° to 90.00°", "9 input points", ">30°<"] {
+        assert!(svg.contains(label), "{label}");
+    }
+    assert!(!svg.contains("below"));
+    assert_eq!(svg, text(MeshFormat::Svg, &MeshView::new(&mesh).with_input_indices(&indices)));
+}
+
+#[test]
+fn svg_marks_triangles_below_the_scale() {
+    let mesh = squares(1);
+    let mut picture = Picture::default();
+    picture.angle_range_deg = [50.0, 60.0];
+    let svg = text(MeshFormat::Svg, &MeshView::new(&mesh).with_picture(picture));
+    assert!(svg.contains("below 50°: 2"));
+}
+
+#[test]
+fn svg_overlay_has_a_legend() {
+    let mesh = squares(1);
+    let square = |x: f64, level| Polygon {
+        corners: vec![
+            DVec2::new(x, 0.0),
+            DVec2::new(x + 1.0, 0.0),
+            DVec2::new(x + 1.0, 1.0),
+            DVec2::new(x, 1.0),
+        ],
+        class: 0,
+        level,
+    };
+    let overlay = Overlay {
+        title: "classes".to_owned(),
+        classes: vec![OverlayClass { label: "a < b & c".to_owned(), colour: Rgb([200, 0, 0]) }],
+        polygons: vec![square(0.0, 2), square(1.0, 5)],
+    };
+    let mut picture = Picture::default();
+    picture.fill_triangles = false;
+    picture.size_px = 200.0;
+    picture.overlay = Some(&overlay);
+    let svg = text(MeshFormat::Svg, &MeshView::new(&mesh).with_picture(picture));
+    for part in ["classes", "a &lt; b &amp; c", "level 2 light to 5 dark", "#c80000"] {
+        assert!(svg.contains(part), "{part}");
+    }
+    // The second polygon reaches beyond the mesh, the drawing fits both.
+    assert!(svg.contains("M112 112l100 0 0-100-100 0z"), "{svg}");
+
+    let mut wrong = overlay.clone();
+    wrong.polygons[1].class = 1;
+    picture.overlay = Some(&wrong);
+    let view = MeshView::new(&mesh).with_picture(picture);
+    let error = write_mesh_to(&mut Vec::new(), MeshFormat::Svg, &view, "s").unwrap_err();
+    assert_eq!(error.to_string(), "s: polygon 1 refers to number 1 of 1");
+}
+
+#[test]
+fn pictures_of_extreme_meshes() {
+    let triangle = |scale: f64| TriMesh {
+        vertices: vec![-DVec2::X * scale, DVec2::X * scale, DVec2::Y * scale],
+        triangles: vec![[0, 1, 2].map(VertexId::new)],
+    };
+    for scale in [f64::MAX, 1e-300, f64::from_bits(1), 0.0] {
+        let svg = text(MeshFormat::Svg, &MeshView::new(&triangle(scale)));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{scale} {svg}");
+        if scale > 1e-301 {
+            assert!(svg.contains("M12 512l1000 0-500-500z"), "{scale} {svg}");
+        }
+    }
+    let empty = text(MeshFormat::Svg, &MeshView::new(&TriMesh::default()));
+    assert!(!empty.contains("NaN") && empty.ends_with("</svg>\n"), "{empty}");
+}

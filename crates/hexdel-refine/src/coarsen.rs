@@ -1,0 +1,196 @@
+//! As fine as necessary, as coarse as possible (paper, section 5.3).
+//!
+//! The paper looks for places where 37 hexagons can be merged to the 7 of a
+//! *blossom*. Here a level that has been closed is looked over before its
+//! demands go to the next coarser one: a hexagon that no finer level needs is
+//! merged again, alone or with its neighbours, wherever every rule still holds
+//! afterwards. A blossom is what is left when seven such hexagons lie together.
+//!
+//! ```text
+//!    *  *  *  *            *  *  *  *        * subdivided
+//!   *  s  s  *  *         *  3  3  *  *      s spare: nobody needs them
+//!  *  s  s  s  *  *  ->  *  3  4  3  *  *    3, 4 the blossom's classes
+//!   *  s  s  *  *         *  3  3  *  *
+//!    *  *  *  *            *  *  *  *
+//! ```
+//!
+//! Tiles are looked over in nine colours, so that two of one colour never see
+//! what the other changes: the result does not depend on threads.
+
+use crate::rule::{RuleSet, Situation};
+use hexdel_classify::View;
+use hexdel_classify::class::{irregular, is_regular};
+use hexdel_grid::grid::hex_of;
+use hexdel_grid::window::ones;
+use hexdel_grid::{Grid, Hex, TileId, Window};
+use rayon::prelude::*;
+
+/// Merges what no finer level needs in the given tiles of a closed level.
+pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &RuleSet) {
+    let mut colours: [Vec<TileId>; 9] = Default::default();
+    for &id in tiles {
+        let tile = grid.tiles().get(level, id);
+        if tile.subdivided & !tile.needed != 0 {
+            colours[colour(tile.first())].push(id);
+        }
+    }
+    for tiles in colours {
+        let merged: Vec<_> =
+            tiles.into_par_iter().map(|id| Patch::of(grid, level, id).coarsened(rules)).collect();
+        for (id, subdivided) in merged.into_iter().flatten() {
+            grid.tiles_mut().get_mut(level, id).subdivided = subdivided;
+        }
+    }
+}
+
+/// One of nine colours: tiles of the same colour are three apart. A tile's
+/// merges reach one hexagon beyond it, and are judged by what lies within nine;
+/// two tiles between are sixteen.
+fn colour(first: Hex) -> usize {
+    let third = |x: i64| (x >> 3).rem_euclid(3) as usize;
+    3 * third(first.r) + third(first.q)
+}
+
+/// Five by five tiles, on which merges are tried.
+struct Patch {
+    /// The tiles, row by row; `None` where there is none.
+    ids: [Option<TileId>; 25],
+    /// Subdivided hexagons of each tile.
+    subdivided: [u64; 25],
+    /// Those that the next finer level needs.
+    needed: [u64; 25],
+    /// Occupied hexagons of both classes.
+    marks: [[u64; 25]; 2],
+    /// The window of the tile in the middle of `subdivided`.
+    centre: Window,
+}
+
+impl Patch {
+    fn of(grid: &Grid, level: u8, centre: TileId) -> Self {
+        let tiles = grid.tiles();
+        let mut patch = Self {
+            ids: [None; 25],
+            subdivided: [0; 25],
+            needed: [0; 25],
+            marks: [[0; 25]; 2],
+            centre: Window::EMPTY,
+        };
+        for row in -1..=1 {
+            for column in -1..=1 {
+                let Some(inner) = tiles.beside(level, centre, column, row) else {
+                    continue;
+                };
+                for i in 0..9 {
+                    let (c, r) = (i % 3 - 1, i / 3 - 1);
+                    patch.ids[index(column + c, row + r)] = tiles.beside(level, inner, c, r);
+                }
+            }
+        }
+        for i in 0..25 {
+            if let Some(id) = patch.ids[i] {
+                let tile = tiles.get(level, id);
+                patch.subdivided[i] = tile.subdivided;
+                patch.needed[i] = tile.needed;
+                patch.marks[0][i] = tile.marks[0];
+                patch.marks[1][i] = tile.marks[1];
+            }
+        }
+        patch.centre = patch.window(&patch.subdivided, 0, 0);
+        patch
+    }
+
+    /// Tries to merge the spare hexagons of the tile in the middle, each first
+    /// together with its spare neighbours, then alone. Returns the tiles that
+    /// changed.
+    fn coarsened(mut self, rules: &RuleSet) -> Vec<(TileId, u64)> {
+        let before = self.subdivided;
+        for bit in ones(self.spare_in_centre()) {
+            let at = hex_of(bit);
+            if self.is_spare(at) {
+                let group: Window = at.disc(1).filter(|&h| self.is_spare(h)).collect();
+                let alone = Window::from_iter([at]);
+                let _ = self.merge(group, rules) || (group != alone && self.merge(alone, rules));
+            }
+        }
+        (0..25)
+            .filter(|&i| self.subdivided[i] != before[i])
+            .filter_map(|i| Some((self.ids[i]?, self.subdivided[i])))
+            .collect()
+    }
+
+    fn spare_in_centre(&self) -> u64 {
+        self.subdivided[12] & !self.needed[12]
+    }
+
+    fn is_spare(&self, at: Hex) -> bool {
+        let (i, bit) = place(at);
+        (self.subdivided[i] & !self.needed[i]) >> bit & 1 == 1
+    }
+
+    /// Merges hexagons if every rule still holds afterwards.
+    fn merge(&mut self, group: Window, rules: &RuleSet) -> bool {
+        if !self.is_regular_without(group) {
+            return false;
+        }
+        let before = self.subdivided;
+        for at in group.iter() {
+            let (i, bit) = place(at);
+            self.subdivided[i] &= !(1 << bit);
+        }
+        let legal = self.rules_hold(group, rules);
+        if legal {
+            self.centre = self.centre.without(group);
+        } else {
+            self.subdivided = before;
+        }
+        legal
+    }
+
+    /// Whether all fins around the middle tile would be in a row without a
+    /// group: the cheap half of the question, which most tries fail. Asked of
+    /// the group first.
+    fn is_regular_without(&self, group: Window) -> bool {
+        let rest = self.centre.without(group);
+        group.iter().all(|at| is_regular(rest.ring_of(at)))
+            && (irregular(rest) & Window::with_margin(2)).is_empty()
+    }
+
+    /// Whether no rule asks for anything where it can see the group.
+    fn rules_hold(&self, group: Window, rules: &RuleSet) -> bool {
+        let mut reached = [false; 9];
+        for at in group.iter() {
+            for (dq, dr) in [(-4, -4), (4, -4), (-4, 4), (4, 4)] {
+                let (column, row) = ((at.q + dq) >> 3, (at.r + dr) >> 3);
+                // A group reaches one hexagon beyond the tile, a rule four:
+                // never more than the neighbouring tile.
+                reached[(3 * (row + 1) + column + 1) as usize] = true;
+            }
+        }
+        // The tile in the middle is the likeliest to object.
+        [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(|&i| reached[i]).all(|i| {
+            let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
+            let view = View {
+                subdivided: self.window(&self.subdivided, column, row),
+                occupied1: self.window(&self.marks[0], column, row),
+                occupied2: self.window(&self.marks[1], column, row),
+            };
+            rules.must_subdivide(&Situation::of(view)) == 0
+        })
+    }
+
+    /// The window of one of the nine inner tiles.
+    fn window(&self, plane: &[u64; 25], column: i64, row: i64) -> Window {
+        let tiles = |r: i64| [-1, 0, 1].map(|c| plane[index(column + c, row + r)]);
+        Window::gather(&[tiles(-1), tiles(0), tiles(1)])
+    }
+}
+
+/// Where a tile `column` and `row` tiles from the middle is kept.
+fn index(column: i64, row: i64) -> usize {
+    (5 * (row + 2) + column + 2) as usize
+}
+
+/// The tile and bit of a hexagon, relative to the first of the middle tile.
+fn place(at: Hex) -> (usize, i64) {
+    (index(at.q >> 3, at.r >> 3), 8 * (at.r & 7) + (at.q & 7))
+}

@@ -1,0 +1,406 @@
+//! What is asked when.
+//!
+//! Rules look at one level: what is subdivided there and which input points
+//! occupy its hexagons. What they ask for concerns that level, or, where
+//! hexagons must exist, the next coarser one. Nothing a coarser level does can
+//! break a rule of a finer one, except that a point whose hexagon is subdivided
+//! moves down. Hence the order: always the finest level on which something
+//! changed. A level is first *closed*, round by round, until no rule wants
+//! more of its hexagons subdivided; then its demands are *projected* to the
+//! next coarser one.
+//!
+//! Each round asks all tiles that changed, or have a neighbour that did, about
+//! the state before the round, in parallel; what they ask for is then applied
+//! in tile order. The result therefore does not depend on the number of
+//! threads. A tile is asked again only after a change, so the work is in
+//! proportion to what changes: near-linear in the output.
+
+use crate::coarsen;
+use crate::queue::Queue;
+use crate::rule::{RuleSet, Situation};
+use crate::sites::{Site, Sites};
+use hexdel_classify::{Occupant, View};
+use hexdel_geom::DVec2;
+use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
+use hexdel_grid::grid::hex_of;
+use hexdel_grid::window::ones;
+use hexdel_grid::{Address, Grid, Lattice, TileId};
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// Why points cannot be refined for.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RefineError {
+    /// A point is so close to another that the levels run out.
+    #[error("point {site} at ({}, {}) is closer to another than {levels} levels resolve", point.x, point.y)]
+    TooClose {
+        /// Index of the point, in the order of adding.
+        site: usize,
+        /// The point.
+        point: DVec2,
+        /// How many levels there are.
+        levels: u8,
+    },
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// A grid that obeys rules around input points.
+#[derive(Clone, Debug)]
+pub struct Refiner {
+    grid: Grid,
+    rules: RuleSet,
+    /// Whether closed levels are looked over for what can be merged again.
+    coarsening: bool,
+    /// All points. Each occupies a leaf of its level, whose mark is set, except
+    /// while it descends.
+    sites: Sites,
+    /// Per level: tiles whose rules must be asked again.
+    open: Vec<Queue>,
+    /// Per level: tiles whose demands on the next coarser level may have
+    /// grown.
+    unprojected: Vec<Queue>,
+    /// Per level: tiles with a neighbour that changed since the level was last
+    /// looked over for what can be merged; all of `unprojected` are in here.
+    loose: Vec<Queue>,
+    /// Tiles asked so far, for progress.
+    asked: u64,
+}
+
+/// Fewer tiles than this are asked at once by one thread: handing them out
+/// would take longer.
+const TILES_PER_TASK: usize = 64;
+
+impl Refiner {
+    /// An empty grid on `lattice` that is to obey `rules`.
+    pub fn new(lattice: Lattice, rules: RuleSet) -> Self {
+        Self {
+            grid: Grid::new(lattice),
+            rules,
+            coarsening: true,
+            sites: Sites::default(),
+            open: Vec::new(),
+            unprojected: Vec::new(),
+            loose: Vec::new(),
+            asked: 0,
+        }
+    }
+
+    /// With or without local coarsening (section 5.3); with it by default.
+    #[must_use]
+    pub fn with_coarsening(mut self, coarsening: bool) -> Self {
+        self.coarsening = coarsening;
+        self
+    }
+
+    /// The grid as it stands.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The grid, to add tiles for a mesh.
+    pub fn grid_mut(&mut self) -> &mut Grid {
+        &mut self.grid
+    }
+
+    /// The points and the leaves they occupy, in the order of adding.
+    pub fn occupants(&self) -> Vec<Occupant> {
+        self.sites.occupants()
+    }
+
+    /// How many times the rules were asked about a tile so far, or what it
+    /// demands of the next coarser level.
+    pub fn tiles_asked(&self) -> u64 {
+        self.asked
+    }
+
+    /// Adds points and refines until every rule holds again.
+    ///
+    /// The points must be distinct and finite. Adding them in batches gives a
+    /// grid that obeys the same rules, though not always the same grid.
+    ///
+    /// # Errors
+    ///
+    /// [`RefineError::TooClose`] if points are too close for the coordinates,
+    /// [`RefineError::Cancelled`] if the monitor asks for it. The refiner is
+    /// then of no further use.
+    ///
+    /// # Complexity
+    ///
+    /// Near-linear in the number of hexagons that come to exist, plus the
+    /// number of points times their levels.
+    pub fn insert(&mut self, points: &[DVec2], monitor: &dyn Monitor) -> Result<(), RefineError> {
+        let lattice = *self.grid.lattice();
+        let added = self.sites.add(&lattice, points);
+        self.settle(added, monitor)?;
+        self.close(monitor)
+    }
+
+    /// Subdivides hexagons that the caller needs subdivided, for whatever
+    /// reason of its own, and refines until every rule holds again. Coarsening
+    /// leaves them subdivided.
+    ///
+    /// # Errors
+    ///
+    /// As [`insert`](Self::insert).
+    pub fn subdivide_all(
+        &mut self,
+        hexagons: impl IntoIterator<Item = Address>,
+        monitor: &dyn Monitor,
+    ) -> Result<(), RefineError> {
+        let mut moving = Vec::new();
+        for at in hexagons {
+            let (id, bit) = self.grid.tile_of(at);
+            self.grid.tiles_mut().get_mut(at.level, id).needed |= 1 << bit;
+            self.subdivide(at.level, id, 1 << bit, &mut moving);
+        }
+        self.sink(moving)?;
+        self.close(monitor)
+    }
+
+    /// Moves points down until no hexagon holds two and no two occupied ones
+    /// are closer than their rings allow.
+    fn settle(&mut self, mut moving: Vec<u32>, monitor: &dyn Monitor) -> Result<(), RefineError> {
+        let mut level = 0;
+        while !moving.is_empty() {
+            check(monitor)?;
+            let mut next = Vec::new();
+            self.occupy_all(&moving, &mut next);
+            // Only points can be in conflict yet; what else the rules want is
+            // asked again when all points have settled.
+            while let Some(queue) = self.open.get_mut(level).filter(|q| !q.is_empty()) {
+                let tiles = queue.take();
+                let occupied = |id| {
+                    let tile = self.grid.tiles().get(level as u8, id);
+                    tile.marks[0] | tile.marks[1]
+                };
+                let tiles: Vec<_> = tiles.into_iter().filter(|&id| occupied(id) != 0).collect();
+                for (id, bits) in self.ask(level as u8, tiles) {
+                    let tile = self.grid.tiles().get(level as u8, id);
+                    let occupied = tile.marks[0] | tile.marks[1];
+                    self.subdivide(level as u8, id, bits & occupied, &mut next);
+                }
+            }
+            next.sort_unstable();
+            moving = next;
+            self.descend(&moving)?;
+            level += 1;
+        }
+        for level in 0..self.unprojected.len() {
+            self.open[level] = self.unprojected[level].clone();
+        }
+        Ok(())
+    }
+
+    /// Closes and projects levels, finest first.
+    fn close(&mut self, monitor: &dyn Monitor) -> Result<(), RefineError> {
+        let pending = |queues: &[Queue]| queues.iter().rposition(|q| !q.is_empty());
+        while let Some(level) = pending(&self.open).max(pending(&self.unprojected)) {
+            check(monitor)?;
+            if self.open[level].is_empty() {
+                self.coarsen(level as u8);
+                self.project(level as u8)?;
+            } else {
+                self.round(level as u8)?;
+            }
+            monitor.progress(Phase::Refine, self.asked, self.asked);
+        }
+        Ok(())
+    }
+
+    /// Asks the open tiles of a level once and subdivides what they want.
+    fn round(&mut self, level: u8) -> Result<(), RefineError> {
+        let tiles = self.open[usize::from(level)].take();
+        let mut moving = Vec::new();
+        for (id, bits) in self.ask(level, tiles) {
+            self.subdivide(level, id, bits, &mut moving);
+        }
+        self.sink(moving)
+    }
+
+    /// Moves points whose hexagon was subdivided down to the next leaf.
+    fn sink(&mut self, mut moving: Vec<u32>) -> Result<(), RefineError> {
+        while !moving.is_empty() {
+            moving.sort_unstable();
+            self.descend(&moving)?;
+            let mut next = Vec::new();
+            self.occupy_all(&moving, &mut next);
+            moving = next;
+        }
+        Ok(())
+    }
+
+    /// The hexagons that the rules want subdivided, by tile.
+    fn ask(&mut self, level: u8, tiles: Vec<TileId>) -> Vec<(TileId, u64)> {
+        self.asked += tiles.len() as u64;
+        let ask = |id| {
+            let view = View::of(&self.grid, level, id);
+            if view.is_empty() {
+                return (id, 0);
+            }
+            (id, self.rules.must_subdivide(&Situation::of(view)))
+        };
+        let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
+        tiles.map(ask).filter(|(_, bits)| *bits != 0).collect()
+    }
+
+    /// Merges what a closed level has to spare.
+    fn coarsen(&mut self, level: u8) {
+        if self.coarsening {
+            let tiles = self.loose[usize::from(level)].take();
+            coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+        }
+    }
+
+    /// Passes the demands of a level on to the next coarser one.
+    fn project(&mut self, level: u8) -> Result<(), RefineError> {
+        let tiles = self.unprojected[usize::from(level)].take();
+        let Some(coarser) = level.checked_sub(1) else {
+            return Ok(());
+        };
+        self.asked += tiles.len() as u64;
+        let demand = |id| {
+            let view = View::of(&self.grid, level, id);
+            if view.is_empty() {
+                return (id, 0);
+            }
+            let situation = Situation::of(view);
+            // The parents of a hexagon are those whose scaled centre it is or
+            // lies beside.
+            (id, self.rules.must_exist(&situation).dilated().even_centre())
+        };
+        let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
+        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| *d != 0).collect();
+        let mut moving = Vec::new();
+        for (id, demand) in demands {
+            let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
+            let bits = in_quadrant(demand, quadrant);
+            let tile = self.grid.tiles_mut().get_mut(coarser, parent);
+            tile.needed |= bits;
+            self.subdivide(coarser, parent, bits, &mut moving);
+        }
+        self.sink(moving)
+    }
+
+    /// Subdivides hexagons of a tile. The points that occupy them are added to
+    /// `moving`.
+    fn subdivide(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) {
+        let tile = self.grid.tiles_mut().get_mut(level, id);
+        let bits = bits & !tile.subdivided;
+        if bits == 0 {
+            return;
+        }
+        tile.subdivided |= bits;
+        let occupied = bits & (tile.marks[0] | tile.marks[1]);
+        tile.marks = tile.marks.map(|plane| plane & !bits);
+        for bit in ones(occupied) {
+            let site = self.sites.leave(level, id, bit);
+            moving.push(site.expect("a marked hexagon has an occupant"));
+        }
+        self.changed(level, id, bits);
+    }
+
+    /// Puts points one level down.
+    fn descend(&mut self, moving: &[u32]) -> Result<(), RefineError> {
+        let (lattice, levels) = (*self.grid.lattice(), Grid::MAX_LEVELS);
+        let lower = |&id: &u32| {
+            let s = self.sites.get(id);
+            Site::new(&lattice, s.level + 1, s.point)
+        };
+        let lowered: Vec<_> = moving.par_iter().with_min_len(TILES_PER_TASK).map(lower).collect();
+        for (&id, site) in moving.iter().zip(lowered) {
+            if site.level >= levels {
+                return Err(RefineError::TooClose {
+                    site: self.sites.index_of(id),
+                    point: site.point,
+                    levels,
+                });
+            }
+            *self.sites.get_mut(id) = site;
+        }
+        Ok(())
+    }
+
+    /// Lets points occupy their hexagons. If one is subdivided its point moves
+    /// on, if it is occupied both do.
+    fn occupy_all(&mut self, sites: &[u32], moving: &mut Vec<u32>) {
+        // Points come along a curve: the next one's tile is near the last's.
+        let mut hint: Option<(u8, TileId)> = None;
+        for &id in sites {
+            let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
+            let (tile, bit) = match hint.filter(|&(l, _)| l == level) {
+                Some((_, near)) => self.grid.tiles_mut().require_near(level, near, hex),
+                None => self.grid.tile_of(Address::new(level, hex)),
+            };
+            hint = Some((level, tile));
+            self.occupy(id, (tile, bit), moving);
+        }
+    }
+
+    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32), moving: &mut Vec<u32>) {
+        let level = self.sites.get(site).level;
+        let tile = self.grid.tiles_mut().get_mut(level, id);
+        if tile.subdivided >> bit & 1 == 1 {
+            moving.push(site);
+            return;
+        }
+        if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
+            moving.push(site);
+            self.subdivide(level, id, 1 << bit, moving);
+            return;
+        }
+        tile.marks[self.sites.get(site).plane()] |= 1 << bit;
+        self.sites.enter(site, id);
+        self.changed(level, id, 1 << bit);
+    }
+
+    /// Notes that hexagons of a tile changed: all tiles that see them are to be
+    /// asked again.
+    fn changed(&mut self, level: u8, id: TileId, bits: u64) {
+        let k = usize::from(level);
+        if k >= self.open.len() {
+            self.open.resize_with(k + 1, Queue::default);
+            self.unprojected.resize_with(k + 1, Queue::default);
+            self.loose.resize_with(k + 1, Queue::default);
+        }
+        let (open, unprojected) = (&mut self.open[k], &mut self.unprojected[k]);
+        self.grid.tiles_mut().require_margin(level, id, bits, |tile| {
+            open.push(tile);
+            unprojected.push(tile);
+        });
+        for tile in self.grid.tiles().around(level, id) {
+            self.loose[k].push(tile);
+        }
+    }
+
+    /// The first hexagon that breaks a rule, with the rule's name: `None` after
+    /// every successful [`insert`](Self::insert).
+    pub fn violation(&self) -> Option<(Address, &'static str)> {
+        (0..self.grid.tiles().levels() as u8).find_map(|level| {
+            let ids = (0..self.grid.tiles().level(level).len()).map(TileId::new);
+            ids.into_iter().find_map(|id| self.violation_in(level, id))
+        })
+    }
+
+    fn violation_in(&self, level: u8, id: TileId) -> Option<(Address, &'static str)> {
+        let situation = Situation::of(View::of(&self.grid, level, id));
+        let first = self.grid.tiles().get(level, id).first();
+        let at = |bit| Address::new(level, first + hex_of(bit));
+        self.rules.iter().find_map(|rule| {
+            let asked = rule.must_subdivide(&situation).without(situation.view.subdivided).centre();
+            let missing = ones(rule.must_exist(&situation).centre()).find(|&b| !self.grid.exists(at(b)));
+            ones(asked).next().or(missing).map(|bit| (at(bit), rule.name()))
+        })
+    }
+}
+
+/// Four by four hexagons of a quarter of a tile as bits of the tile.
+fn in_quadrant(demand: u16, quadrant: usize) -> u64 {
+    let (column, row) = (4 * (quadrant & 1), 4 * (quadrant >> 1));
+    (0..4).fold(0, |bits, r| {
+        let four = u64::from(demand >> (4 * r) & 0xf);
+        bits | four << (8 * (row + r) + column)
+    })
+}

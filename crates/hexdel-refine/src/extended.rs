@@ -1,0 +1,186 @@
+//! The rules of section 5.2.
+//!
+//! Where the paper's rule on the rings of occupied hexagons subdivides the
+//! moved hexagon and, through rule 5, the occupied one as well, the rule here
+//! subdivides the occupied one only: what else must follow is found by the
+//! other rules, and is often nothing.
+
+use crate::rule::{Rule, Situation};
+use hexdel_grid::{Direction, Window};
+
+/// The rules of this module, in the paper's order.
+pub static RULES: &[&dyn Rule] = &[
+    &SubdivideClass,
+    &MovedInRing,
+    &OccupiedRings,
+    &FixedBesideFins,
+    &TopOfTwoRuns,
+    &TopWithFins,
+    &TwoFinsBesideRun,
+];
+
+/// Subdivide any hexagon of type SUBDIVIDE: its fins are not consecutive, or
+/// more than three.
+pub struct SubdivideClass;
+
+impl Rule for SubdivideClass {
+    fn name(&self) -> &'static str {
+        "class subdivide"
+    }
+
+    fn must_subdivide(&self, s: &Situation) -> Window {
+        s.classes.irregular
+    }
+}
+
+/// No moved hexagon lies in the 1-ring of an `Occupied1` or in the 1- or 2-ring
+/// of an `Occupied2`: such an occupied hexagon is subdivided.
+///
+/// ```text
+///     .  .  .  .         o: Occupied2. None of the hexagons r (1-ring, shifted
+///    .  R  R  R  .       with the point) and R (2-ring) has fins or is the top
+///   .  R  r  r  R  .     of a three-finned one, so nothing is subdivided up to
+///  .  R  r  o  r  R  .   the third ring.
+/// ```
+pub struct MovedInRing;
+
+impl Rule for MovedInRing {
+    fn name(&self) -> &'static str {
+        "moved in ring"
+    }
+
+    fn must_subdivide(&self, s: &Situation) -> Window {
+        if s.view.subdivided.is_empty() || (s.view.occupied() & Window::with_margin(0)).is_empty() {
+            return Window::EMPTY;
+        }
+        let moved = s.view.subdivided.dilated() | s.classes.moved4();
+        let near = moved.dilated();
+        s.view.occupied1 & near | s.view.occupied2 & near.dilated()
+    }
+}
+
+/// The shifted ring of an `Occupied2` lies in no ring of another occupied
+/// hexagon: `Occupied2` are four steps apart, and three from `Occupied1`.
+pub struct OccupiedRings;
+
+impl Rule for OccupiedRings {
+    fn name(&self) -> &'static str {
+        "rings of two occupied"
+    }
+
+    fn must_subdivide(&self, s: &Situation) -> Window {
+        let (one, two) = (s.view.occupied1, s.view.occupied2);
+        let mut close = Window::EMPTY;
+        if !one.is_empty() {
+            close = one & one.others_within(1);
+        }
+        if !two.is_empty() {
+            close |= two & two.others_within(3);
+        }
+        if !one.is_empty() && !two.is_empty() {
+            close |= one & two.others_within(2) | two & one.others_within(2);
+        }
+        close
+    }
+}
+
+/// The full hexagons beside the fins of a `MovedCenter1`, `2` or `3` are of
+/// type FIXED. Seen from the finer side: a hexagon that is moved, and one that
+/// is subdivided or has fins, has six full neighbours, so that it lies beside
+/// no semi-hexagon.
+pub struct FixedBesideFins;
+
+impl Rule for FixedBesideFins {
+    fn name(&self) -> &'static str {
+        "fixed beside fins"
+    }
+
+    fn must_exist(&self, s: &Situation) -> Window {
+        let moved = s.view.subdivided.dilated() | s.classes.moved4() | s.view.occupied2.dilated();
+        moved.dilated()
+    }
+}
+
+/// Subdivide a `MovedCenter4` that is the top of more than one run of
+/// `MovedCenter3`.
+pub struct TopOfTwoRuns;
+
+impl Rule for TopOfTwoRuns {
+    fn name(&self) -> &'static str {
+        "top of two runs"
+    }
+
+    fn must_subdivide(&self, s: &Situation) -> Window {
+        let c = &s.classes;
+        if c.moved3.is_empty() {
+            return Window::EMPTY;
+        }
+        // Runs start where there is none before; five in a run have one start.
+        let (mut one, mut more) = (Window::EMPTY, Window::EMPTY);
+        let mut gaps = Window::EMPTY;
+        let mut two_gaps = Window::EMPTY;
+        for d in 0..6 {
+            let start = c.under[(d + 1) % 6].without(c.under[d]);
+            more |= one & start;
+            one |= start;
+            two_gaps |= gaps.without(c.under[d]);
+            gaps |= !c.under[d];
+        }
+        c.moved4() & (more | one.without(two_gaps))
+    }
+}
+
+/// A top has no fins of its own, or there is no template for it: subdivide the
+/// `MovedCenter3` below it. (Implied by the paper's definition of the class.)
+pub struct TopWithFins;
+
+impl Rule for TopWithFins {
+    fn name(&self) -> &'static str {
+        "top with fins"
+    }
+
+    fn must_subdivide(&self, s: &Situation) -> Window {
+        if s.classes.moved3.is_empty() {
+            return Window::EMPTY;
+        }
+        let finned = s.classes.finned();
+        Direction::ALL
+            .into_iter()
+            .fold(Window::EMPTY, |set, d| set | s.classes.middle[d.index()] & finned.at(d.opposite()))
+    }
+}
+
+/// A run of two or more `MovedCenter3` does not end at a `MovedCenter2`
+/// (paper, Fig. 6): the hexagon after that one is subdivided, which makes it
+/// part of the run.
+///
+/// ```text
+///      *  *  *  *  x        * subdivided, 3 the run, 2 beside it:
+///       3  3  2  .          subdivide x
+/// ```
+pub struct TwoFinsBesideRun;
+
+impl Rule for TwoFinsBesideRun {
+    fn name(&self) -> &'static str {
+        "two fins beside run"
+    }
+
+    fn must_subdivide(&self, s: &Situation) -> Window {
+        let c = &s.classes;
+        if c.moved3.is_empty() || c.moved2.is_empty() {
+            return Window::EMPTY;
+        }
+        let mut set = Window::EMPTY;
+        for d in (0..6).filter(|&d| !c.middle[d].is_empty()) {
+            let turned = |by: usize| Direction::new(d + by);
+            // Around the top at -d, the next lies at d + 2, the one before at
+            // d - 2; the hexagon beyond it in the same direction again.
+            let (next, before) = (turned(2), turned(4));
+            let last = c.middle[d] & c.middle[(d + 5) % 6].at(before) & c.moved2.at(next);
+            set |= last.moved(next).moved(next);
+            let first = c.middle[d] & c.middle[(d + 1) % 6].at(next) & c.moved2.at(before);
+            set |= first.moved(before).moved(before);
+        }
+        set
+    }
+}

@@ -1,0 +1,188 @@
+//! Input points and the hexagons they occupy.
+
+use hexdel_classify::Occupant;
+use hexdel_classify::relocate::ring_may_stay;
+use hexdel_geom::DVec2;
+use hexdel_grid::double::Double;
+use hexdel_grid::{Hex, Lattice, Located, TileId};
+use rayon::prelude::*;
+
+/// An input point in the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// The point, as given.
+    pub point: DVec2,
+    /// The level of the leaf it occupies.
+    pub level: u8,
+    /// That leaf, and where in it the point lies.
+    pub at: Located,
+}
+
+impl Site {
+    /// A point in the hexagon of a level that holds it.
+    pub fn new(lattice: &Lattice, level: u8, point: DVec2) -> Self {
+        Self { point, level, at: lattice.locate(level, point) }
+    }
+
+    /// The plane of tile marks that the hexagon belongs to: class `Occupied1`
+    /// or `Occupied2`.
+    pub fn plane(&self) -> usize {
+        usize::from(!ring_may_stay(&self.at))
+    }
+}
+
+/// All input points, by site id: along a space-filling curve, so that
+/// neighbours in the plane are mostly neighbours in memory.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sites {
+    sites: Vec<Site>,
+    /// The site id of each point, in the order of adding. A permutation.
+    rank: Vec<u32>,
+    /// The next site that occupies a hexagon of the same tile, or [`NONE`].
+    next: Vec<u32>,
+    /// The first site of each tile, by level and tile id, or [`NONE`]; none
+    /// beyond the end. Together with `next` a list of each tile's occupants.
+    heads: Vec<Vec<u32>>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Sites {
+    /// Adds points, all on level 0. Returns their ids, ascending.
+    pub(crate) fn add(&mut self, lattice: &Lattice, points: &[DVec2]) -> Vec<u32> {
+        let first = self.sites.len();
+        let mut order: Vec<(u64, u32)> =
+            points.par_iter().enumerate().map(|(i, &p)| (along_curve(lattice, p), i as u32)).collect();
+        order.par_sort_unstable();
+        self.sites.par_extend(order.par_iter().map(|&(_, i)| Site::new(lattice, 0, points[i as usize])));
+        self.next.resize(self.sites.len(), NONE);
+        self.rank.resize(self.sites.len(), NONE);
+        for (site, &(_, i)) in (first..).zip(&order) {
+            self.rank[first + i as usize] = site as u32;
+        }
+        (first as u32..self.sites.len() as u32).collect()
+    }
+
+    /// The points and the leaves they occupy, in the order of adding.
+    pub(crate) fn occupants(&self) -> Vec<Occupant> {
+        let occupant = |&id: &u32| {
+            let s = &self.sites[id as usize];
+            Occupant { level: s.level, at: s.at, point: s.point }
+        };
+        self.rank.iter().map(occupant).collect()
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, id: u32) -> &Site {
+        &self.sites[id as usize]
+    }
+
+    #[inline]
+    pub(crate) fn get_mut(&mut self, id: u32) -> &mut Site {
+        &mut self.sites[id as usize]
+    }
+
+    /// Which point a site is, in the order of adding. Takes a search.
+    pub(crate) fn index_of(&self, id: u32) -> usize {
+        self.rank.iter().position(|&r| r == id).expect("every site was added")
+    }
+
+    /// Notes that a site occupies its hexagon, which is one of `tile`.
+    #[inline]
+    pub(crate) fn enter(&mut self, id: u32, tile: TileId) {
+        let level = usize::from(self.get(id).level);
+        if level >= self.heads.len() {
+            self.heads.resize(level + 1, Vec::new());
+        }
+        let heads = &mut self.heads[level];
+        if tile.index() >= heads.len() {
+            heads.resize((tile.index() + 1).next_power_of_two(), NONE);
+        }
+        self.next[id as usize] = std::mem::replace(&mut heads[tile.index()], id);
+    }
+
+    /// Forgets and returns the site that occupies a hexagon.
+    #[inline]
+    pub(crate) fn leave(&mut self, level: u8, tile: TileId, bit: u32) -> Option<u32> {
+        let head = self.heads.get_mut(usize::from(level))?.get_mut(tile.index())?;
+        let (mut before, mut id) = (NONE, *head);
+        while id != NONE {
+            let after = self.next[id as usize];
+            if bit_of(self.sites[id as usize].at.hex) == bit {
+                *(if before == NONE { head } else { &mut self.next[before as usize] }) = after;
+                return Some(id);
+            }
+            (before, id) = (id, after);
+        }
+        None
+    }
+}
+
+/// The bit of a hexagon in its tile.
+#[inline]
+fn bit_of(hex: Hex) -> u32 {
+    (8 * (hex.r & 7) + (hex.q & 7)) as u32
+}
+
+/// Where a point lies along a Z-curve on the lattice's axes: as tiles are
+/// nested, so are the curve's parts.
+fn along_curve(lattice: &Lattice, point: DVec2) -> u64 {
+    // Sixteen hexagons of level 0 in 32 bits; what lies outside is clamped,
+    // which costs time at most.
+    let scale = f64::from(1 << 28) / lattice.spacing(0);
+    let v = (point - lattice.origin()) * scale;
+    let r = v.y / Double::HALF_SQRT_3.hi;
+    let q = v.x - 0.5 * r;
+    let bits = |x: f64| spread((x + f64::from(1_u32 << 31)) as u32);
+    bits(q) | bits(r) << 1
+}
+
+/// Bit `i` of 32 to bit `2 i`.
+fn spread(x: u32) -> u64 {
+    let x = u64::from(x);
+    let x = (x | x << 16) & 0x0000_ffff_0000_ffff;
+    let x = (x | x << 8) & 0x00ff_00ff_00ff_00ff;
+    let x = (x | x << 4) & 0x0f0f_0f0f_0f0f_0f0f;
+    let x = (x | x << 2) & 0x3333_3333_3333_3333;
+    (x | x << 1) & 0x5555_5555_5555_5555
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lattice() -> Lattice {
+        Lattice::new(DVec2::ZERO, 1.0)
+    }
+
+    #[test]
+    fn points_keep_their_order_whatever_the_curve_does() {
+        let points: Vec<_> =
+            (0..50).map(|i| DVec2::new(f64::from(i * 37 % 50) * 0.1, f64::from(i * 11 % 50) * 0.1)).collect();
+        let mut sites = Sites::default();
+        assert_eq!(sites.add(&lattice(), &points[..20]), (0..20).collect::<Vec<_>>());
+        assert_eq!(sites.add(&lattice(), &points[20..]), (20..50).collect::<Vec<_>>());
+        let back: Vec<_> = sites.occupants().into_iter().map(|o| o.point).collect();
+        assert_eq!(back, points);
+        for id in 0..50 {
+            assert_eq!(points[sites.index_of(id)], sites.get(id).point);
+        }
+    }
+
+    #[test]
+    fn occupants_leave_in_any_order() {
+        let points = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(2.0, 0.0)];
+        let tile = TileId::new(5);
+        for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
+            let mut sites = Sites::default();
+            for id in sites.add(&lattice(), &points) {
+                sites.enter(id, tile);
+            }
+            for i in order {
+                let left = sites.leave(0, tile, bit_of(Hex::new(i, 0)));
+                assert_eq!(left.map(|id| sites.index_of(id)), Some(i as usize));
+                assert_eq!(sites.leave(0, tile, bit_of(Hex::new(i, 0))), None);
+            }
+        }
+    }
+}

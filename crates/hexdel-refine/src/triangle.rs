@@ -1,0 +1,220 @@
+//! The triangle rule, which section 5.2 lacks.
+//!
+//! Without it, angles down to 33.3 and up to 93.4 degrees remain where two
+//! fronts face each other across a strip of two coarse hexagons, and where a
+//! top touches a hexagon moved by another front. Since relocations come from a
+//! small finite set, whether a triangle keeps the bounds is decided exactly;
+//! where it does not, the corner with the most fins is subdivided.
+//!
+//! ```text
+//!     *  *  *           two fronts: the hexagons 1 above and below are pulled
+//!      1  1  1          apart, and the triangle between them, one corner moved
+//!       1  1  1         up and two down, gets too flat an angle
+//!        *  *  *
+//! ```
+
+use crate::rule::{Rule, Situation};
+use hexdel_classify::class::single_run;
+use hexdel_classify::relocate::{from_run, towards_one, towards_two};
+use hexdel_classify::{Class, Classes, ExactBounds, Offset};
+use hexdel_grid::{Direction, Hex, Window};
+use std::sync::OnceLock;
+
+/// The rules of this module.
+pub static RULES: &[&dyn Rule] = &[&TriangleRule];
+
+/// No triangle of hexagons of the same level breaks the bounds.
+pub struct TriangleRule;
+
+impl Rule for TriangleRule {
+    fn name(&self) -> &'static str {
+        "triangle"
+    }
+
+    fn must_subdivide(&self, s: &Situation) -> Window {
+        let c = &s.classes;
+        let moved = c.moved1 | c.moved2 | c.moved4();
+        let mut victims = Window::EMPTY;
+        // A pair one step beyond the tile may still have a victim within.
+        let near = moved & Window::with_margin(1);
+        if near.is_empty() {
+            return victims;
+        }
+        for d in [0, 1, 2].map(Direction::new) {
+            for a in (foreign_pairs(c, moved, d) & near).iter() {
+                let b = a.neighbour(d);
+                let kept = kept(d, Template::of(c, a), Template::of(c, b));
+                for (turn, kept) in [1, 5].into_iter().zip(kept) {
+                    let third = a.neighbour(d.turned(turn));
+                    if !c.moved3.contains(third) && kept >> Template::of(c, third).turned(d).0 & 1 == 0 {
+                        victims.insert(victim(c, [a, b, third]));
+                    }
+                }
+            }
+        }
+        victims
+    }
+}
+
+/// The corner that the rule asks for because of one lattice triangle,
+/// counter-clockwise: what [`TriangleRule`] does for every triangle of a window.
+pub fn victim_of(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
+    let moved = c.moved1 | c.moved2 | c.moved4();
+    let foreign = |a: Hex, b: Hex| {
+        let along = Direction::ALL[..3].iter().find(|d| a.neighbour(**d) == b);
+        along.is_some_and(|&d| foreign_pairs(c, moved, d).contains(a))
+    };
+    let [x, y, z] = corners;
+    let asked = [(x, y), (y, z), (z, x)].into_iter().any(|(a, b)| foreign(a, b) || foreign(b, a));
+    let three = corners.iter().any(|&at| c.moved3.contains(at));
+    let breaks =
+        || !ExactBounds::EXTENDED.hold(corners.map(|at| Offset::of(at) + Template::of(c, at).offset()));
+    (asked && !three && breaks()).then(|| victim(c, corners))
+}
+
+/// The hexagons that are moved by another front than their neighbour in
+/// direction `d`: both are moved, they share no fin, and neither is the top of
+/// a three-finned hexagon beside the other.
+fn foreign_pairs(c: &Classes, moved: Window, d: Direction) -> Window {
+    let side = |by: usize| d.turned(by);
+    let shared = c.subdivided.at(side(1)) | c.subdivided.at(side(5));
+    let under = |by: usize| c.under[side(by).index()];
+    let top = under(1) | under(5) | (under(2) | under(4)).at(d);
+    (moved & moved.at(d)).without(shared | top)
+}
+
+/// Where a vertex goes that is not a `MovedCenter3`: 0 if it stays, otherwise
+/// `1 + 6 kind + direction`. Kinds 0 and 1 have one fin or two, the first of
+/// them in that direction; kinds 2 to 5 are tops of a run of one to four.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Template(u8);
+
+impl Template {
+    const COUNT: usize = 37;
+
+    #[inline]
+    fn of(c: &Classes, at: Hex) -> Self {
+        if c.subdivided.contains(at) {
+            return Self(0);
+        }
+        match c.subdivided.ring_of(at) {
+            0 if c.under.iter().all(|under| !under.contains(at)) => Self(0),
+            0 => Self::new(single_run(c.under_of(at)), 2),
+            fins => Self::new(single_run(fins), 0),
+        }
+    }
+
+    /// Kinds from `first` on by the length of a run.
+    #[inline]
+    fn new(run: Option<(Direction, usize)>, first: usize) -> Self {
+        let longest = if first == 0 { 2 } else { 4 };
+        match run {
+            Some((d, n)) if n <= longest => Self((1 + 6 * (first + n - 1) + d.index()) as u8),
+            _ => Self(0),
+        }
+    }
+
+    /// Turned so that direction `d` becomes direction 0.
+    #[inline]
+    fn turned(self, d: Direction) -> Self {
+        let Some(i) = self.0.checked_sub(1) else {
+            return self;
+        };
+        let (kind, direction) = (i / 6, i % 6 + 6 - d.index() as u8);
+        Self(1 + 6 * kind + direction % 6)
+    }
+
+    fn offset(self) -> Offset {
+        let Some(i) = self.0.checked_sub(1) else {
+            return Offset::ZERO;
+        };
+        let d = Direction::new(usize::from(i % 6));
+        match usize::from(i / 6) {
+            0 => towards_one(d),
+            1 => towards_two(d),
+            kind => from_run(d, kind - 1).unwrap_or_default(),
+        }
+    }
+}
+
+/// For the triangles to the left and to the right of two neighbours, `b` in
+/// direction `d` of `a`: the templates of the third corner with which they keep
+/// the bounds, a bit each, turned as `d` is to direction 0.
+#[inline]
+fn kept(d: Direction, a: Template, b: Template) -> [u64; 2] {
+    static KEPT: [OnceLock<[u64; 2]>; Template::COUNT * Template::COUNT] =
+        [const { OnceLock::new() }; Template::COUNT * Template::COUNT];
+    let (a, b) = (a.turned(d), b.turned(d));
+    *KEPT[usize::from(a.0) * Template::COUNT + usize::from(b.0)].get_or_init(|| {
+        let at = |hex, t: Template| Offset::of(hex) + t.offset();
+        let east = Direction::new(0);
+        let (a, b) = (at(Hex::ORIGIN, a), at(east.step(), b));
+        let thirds =
+            |turn| (0..Template::COUNT as u8).map(move |t| (t, at(east.turned(turn).step(), Template(t))));
+        let bits = |set, (t, keeps)| set | u64::from(keeps) << t;
+        let bounds = ExactBounds::EXTENDED;
+        [
+            thirds(1).map(|(t, third)| (t, bounds.hold([a, b, third]))).fold(0, bits),
+            thirds(5).map(|(t, third)| (t, bounds.hold([b, a, third]))).fold(0, bits),
+        ]
+    })
+}
+
+/// The corner to subdivide of a triangle that breaks the bounds.
+fn victim(c: &Classes, corners: [Hex; 3]) -> Hex {
+    let [first, second, third] = corners.map(|at| (rank(c.class_of(at)), at));
+    first.max(second).max(third).1
+}
+
+/// How much a class is moved, in the order victims are chosen.
+fn rank(class: Class) -> u8 {
+    match class {
+        Class::MovedCenter2 => 3,
+        Class::MovedCenter1 => 2,
+        Class::MovedCenter4 => 1,
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hexdel_classify::relocate::relocation;
+
+    #[test]
+    fn templates_are_what_relocates() {
+        let mut seen = [false; Template::COUNT];
+        for seed in 0..3000_i64 {
+            let centre = |i: i64| Hex::new((seed * 7 + i * 5) % 16 - 4, (seed * 3 + i * 11) % 16 - 4);
+            let disc = |i: i64| centre(i).disc(((seed + i) % 3 + 1) as u32);
+            let inside = |h: &Hex| Window::with_margin(4).iter().any(|w| w == *h);
+            let holes: Window = (0..4).flat_map(disc).filter(inside).collect();
+            let subdivided = if seed % 2 == 0 { holes } else { !holes };
+            let c = Classes::of(subdivided);
+            for at in Window::with_margin(1).without(c.moved3).iter() {
+                let template = Template::of(&c, at);
+                assert_eq!(template.offset(), relocation(subdivided, at));
+                seen[usize::from(template.0)] = true;
+            }
+        }
+        assert!(seen.iter().filter(|s| **s).count() >= 18, "{seen:?}");
+    }
+
+    #[test]
+    fn tables_agree_with_the_triangle_itself() {
+        let all = || (0..Template::COUNT as u8).map(Template);
+        for d in Direction::ALL {
+            for (a, b) in all().flat_map(|a| all().map(move |b| (a, b))) {
+                let [left, right] = kept(d, a, b);
+                for third in all() {
+                    let place = |hex, t: Template| Offset::of(hex) + t.offset();
+                    let (p, q) = (place(Hex::ORIGIN, a), place(d.step(), b));
+                    let l = ExactBounds::EXTENDED.hold([p, q, place(d.turned(1).step(), third)]);
+                    let r = ExactBounds::EXTENDED.hold([q, p, place(d.turned(5).step(), third)]);
+                    let bit = third.turned(d).0;
+                    assert_eq!((left >> bit & 1 == 1, right >> bit & 1 == 1), (l, r));
+                }
+            }
+        }
+    }
+}

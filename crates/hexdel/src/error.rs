@@ -1,0 +1,122 @@
+//! Why points could not be meshed.
+
+use hexdel_classify::DualError;
+use hexdel_geom::{AngleBounds, Cancelled, Certificate, DVec2, DelaunayError, PointsError, TriMesh};
+use hexdel_refine::RefineError;
+use thiserror::Error;
+
+/// Why points could not be meshed. Indices count the input points from 0.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The points are no input: none at all, or one is not finite.
+    #[error(transparent)]
+    Points(#[from] PointsError),
+    /// A coordinate is so large that its square leaves the range of numbers.
+    #[error("point {index} at ({}, {}) is beyond {limit:e}", point.x, point.y)]
+    OutOfRange {
+        /// Index of the point.
+        index: usize,
+        /// The point.
+        point: DVec2,
+        /// The largest coordinate supported.
+        limit: f64,
+    },
+    /// Two points are closer than their coordinates can resolve: vertices
+    /// between them would be rounded by more than angles bear.
+    #[error(
+        "points {a} at ({}, {}) and {b} at ({}, {}) are {distance:e} apart, closer than the {least:e} \
+         that coordinates of this size resolve",
+        points[0].x, points[0].y, points[1].x, points[1].y
+    )]
+    TooClose {
+        /// Index of one point.
+        a: usize,
+        /// Index of the other.
+        b: usize,
+        /// Both points.
+        points: [DVec2; 2],
+        /// Their distance.
+        distance: f64,
+        /// The smallest distance that would do.
+        least: f64,
+    },
+    /// The domain asked for leaves too little room around the points.
+    #[error("a domain of radius {radius} is too small: these points need about {least}")]
+    DomainTooSmall {
+        /// The radius asked for.
+        radius: f64,
+        /// A radius that would do on the grid that the one asked for gave. The
+        /// grid follows the radius, so that a second, larger one may be named.
+        least: f64,
+    },
+    /// The domain asked for is not a positive number.
+    #[error("{radius} is no radius of a domain")]
+    InvalidRadius {
+        /// The radius asked for.
+        radius: f64,
+    },
+    /// The method does not keep the bounds asked for.
+    #[error(
+        "angles between {} and {} degrees are more than the method keeps ({} to {})",
+        asked.min_deg(), asked.max_deg(), kept.min_deg(), kept.max_deg()
+    )]
+    BoundsBeyondMethod {
+        /// The bounds asked for.
+        asked: AngleBounds,
+        /// The bounds the method keeps for every input.
+        kept: AngleBounds,
+    },
+    /// The mesh would be too large for 32-bit indices.
+    #[error("the mesh would have {count} vertices, more than an index can hold")]
+    TooManyVertices {
+        /// How many it would have.
+        count: u64,
+    },
+    /// Rounding took an edge from Delaunay and no small move brings it back:
+    /// the coordinates are exhausted there.
+    #[error(transparent)]
+    Delaunay(#[from] DelaunayError),
+    /// The threads asked for could not be started.
+    #[error("cannot start {threads} threads")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+    },
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The finished mesh does not keep what was promised. This is a defect of
+    /// the library; the mesh is handed over with what is wrong with it.
+    #[error(
+        "the mesh does not certify: {} of {} triangles are out of bounds",
+        certificate.out_of_bounds, certificate.triangles
+    )]
+    NotCertified {
+        /// The mesh.
+        mesh: Box<TriMesh>,
+        /// Its certificate, which does not hold.
+        certificate: Box<Certificate>,
+    },
+}
+
+impl From<DualError> for Error {
+    fn from(error: DualError) -> Self {
+        match error {
+            DualError::TooManyVertices { count } => Self::TooManyVertices { count },
+            _ => Self::Cancelled(Cancelled),
+        }
+    }
+}
+
+impl Error {
+    /// A refinement error, which only cancellation can cause once the closest
+    /// pair has been found to be resolved; with the pair, should it be the
+    /// other one after all.
+    pub(crate) fn of_refinement(error: RefineError, too_close: impl FnOnce() -> Self) -> Self {
+        match error {
+            RefineError::Cancelled(c) => Self::Cancelled(c),
+            _ => too_close(),
+        }
+    }
+}

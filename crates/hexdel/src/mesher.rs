@@ -1,0 +1,322 @@
+//! Options, and the one call.
+
+use crate::error::Error;
+use crate::placement::{self, Placement};
+use crate::triangulation::{Patch, Seconds, Triangulation};
+use hexdel_classify::{Domain, Dual, Relocation, extract};
+use hexdel_geom::monitor::check;
+use hexdel_geom::{
+    AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
+    certify, restore_delaunay,
+};
+use hexdel_refine::{Refiner, RuleSet};
+use std::time::Instant;
+
+/// How the mesh is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// The paper's extended refinement and relocation templates (section 5):
+    /// 43.9 to 90 degrees.
+    #[default]
+    Templates,
+    /// The paper's simple refinement (section 4): 30 to 120 degrees, about a
+    /// quarter of the triangles.
+    Simple,
+}
+
+impl Method {
+    /// The bounds that the method keeps for every input.
+    pub const fn bounds(self) -> AngleBounds {
+        match self {
+            Self::Templates => AngleBounds::EXTENDED,
+            Self::Simple => AngleBounds::SIMPLE,
+        }
+    }
+
+    fn relocation(self) -> Relocation {
+        match self {
+            Self::Templates => Relocation::Full,
+            Self::Simple => Relocation::Occupied,
+        }
+    }
+
+    fn rules(self) -> RuleSet {
+        match self {
+            Self::Templates => RuleSet::extended(),
+            Self::Simple => RuleSet::simple(),
+        }
+    }
+}
+
+/// Meshes points, with options.
+///
+/// ```
+/// use hexdel::{DVec2, Mesher, Method};
+///
+/// let points: Vec<_> = (0..20).map(|i| DVec2::new(f64::from(i), f64::from(i * i % 7))).collect();
+/// let made = Mesher::new().method(Method::Simple).threads(1).triangulate(&points)?;
+/// assert!(made.certificate.min_angle_deg >= 30.0 - 1e-9);
+/// # Ok::<(), hexdel::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Mesher {
+    method: Method,
+    bounds: Option<AngleBounds>,
+    domain_radius: Option<f64>,
+    threads: Option<usize>,
+    without_coarsening: bool,
+}
+
+/// Meshes points with the default options.
+///
+/// # Errors
+///
+/// [`Error`], naming the offending points.
+///
+/// # Complexity
+///
+/// Near-linear in the size of the mesh, which is about 120 triangles per point
+/// for evenly spread points; memory about 60 bytes per triangle.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel::DVec2;
+/// let made = hexdel::triangulate(&[DVec2::ZERO, DVec2::new(0.02, 0.0)])?;
+/// assert_eq!(made.certificate.inputs_kept, 2);
+/// # Ok::<(), hexdel::Error>(())
+/// ```
+pub fn triangulate(points: &[DVec2]) -> Result<Triangulation, Error> {
+    Mesher::new().triangulate(points)
+}
+
+impl Mesher {
+    /// The default options: templates, 43.9 to 90 degrees, the tightest domain,
+    /// all threads.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How the mesh is made.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Method};
+    /// let mesher = Mesher::new().method(Method::Simple);
+    /// let made = mesher.triangulate(&[DVec2::ZERO, DVec2::X])?;
+    /// assert!(made.certificate.max_angle_deg <= 120.0);
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn method(mut self, method: Method) -> Self {
+        self.method = method;
+        self
+    }
+
+    /// The bounds that the mesh is held to, by default those the method keeps.
+    /// They may be wider, not narrower.
+    ///
+    /// ```
+    /// # use hexdel::{AngleBounds, DVec2, Error, Mesher};
+    /// let mesher = Mesher::new().bounds(AngleBounds::new(48.0, 84.0)?);
+    /// let refused = mesher.triangulate(&[DVec2::ZERO, DVec2::X]);
+    /// assert!(matches!(refused, Err(Error::BoundsBeyondMethod { .. })));
+    /// # Ok::<(), hexdel::geom::BoundsError>(())
+    /// ```
+    #[must_use]
+    pub fn bounds(mut self, bounds: AngleBounds) -> Self {
+        self.bounds = Some(bounds);
+        self
+    }
+
+    /// Circumradius of the hexagon that the mesh covers, in input units. Its
+    /// centre is that of the points' smallest enclosing circle, two of its
+    /// corners lie east and west. By default as small as the method allows.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher};
+    /// let made = Mesher::new().domain_radius(1.0).triangulate(&[DVec2::ZERO, DVec2::new(0.02, 0.0)])?;
+    /// let east = made.mesh.vertices.iter().map(|v| v.x).fold(f64::MIN, f64::max);
+    /// assert!((east - 1.01).abs() < 1e-12);
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn domain_radius(mut self, radius: f64) -> Self {
+        self.domain_radius = Some(radius);
+        self
+    }
+
+    /// How many threads work, by default as many as the machine has. The mesh
+    /// does not depend on it.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher};
+    /// let points = [DVec2::ZERO, DVec2::X, DVec2::new(0.2, 0.7)];
+    /// let one = Mesher::new().threads(1).triangulate(&points)?;
+    /// let two = Mesher::new().threads(2).triangulate(&points)?;
+    /// assert_eq!(one.mesh, two.mesh);
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = Some(threads);
+        self
+    }
+
+    /// Whether hexagons are merged again where all rules allow it (section
+    /// 5.3): a tenth fewer triangles. On by default.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, generate};
+    /// let points = generate::generate(generate::Kind::Uniform, 50, 1);
+    /// let fine = Mesher::new().coarsening(false).triangulate(&points)?;
+    /// let coarse = Mesher::new().triangulate(&points)?;
+    /// assert!(coarse.mesh.triangles.len() < fine.mesh.triangles.len());
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn coarsening(mut self, coarsening: bool) -> Self {
+        self.without_coarsening = !coarsening;
+        self
+    }
+
+    /// Meshes points.
+    ///
+    /// # Guarantees
+    ///
+    /// The mesh has passed its certificate: every angle within the bounds,
+    /// Delaunay, one disk, every point a vertex bit for bit, no edge shorter
+    /// than the paper's `l_min`. Angles that only the rounding of coordinates
+    /// takes past a bound are listed in it. Same points, same bytes, at any
+    /// number of threads.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`], naming the offending points.
+    pub fn triangulate(&self, points: &[DVec2]) -> Result<Triangulation, Error> {
+        self.triangulate_watched(points, &Unwatched)
+    }
+
+    /// Meshes points, reporting progress to a monitor that may stop the work.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Error, Mesher, Monitor};
+    /// struct Never;
+    /// impl Monitor for Never {
+    ///     fn cancelled(&self) -> bool {
+    ///         true
+    ///     }
+    /// }
+    /// let stopped = Mesher::new().triangulate_watched(&[DVec2::ZERO, DVec2::X], &Never);
+    /// assert!(matches!(stopped, Err(Error::Cancelled(_))));
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Cancelled`] if the monitor asks for it, else as
+    /// [`triangulate`](Self::triangulate).
+    pub fn triangulate_watched(
+        &self,
+        points: &[DVec2],
+        monitor: &dyn Monitor,
+    ) -> Result<Triangulation, Error> {
+        let Some(threads) = self.threads else {
+            return self.run(points, monitor);
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|_| Error::Threads { threads })?;
+        pool.install(|| self.run(points, monitor))
+    }
+
+    fn run(&self, points: &[DVec2], monitor: &dyn Monitor) -> Result<Triangulation, Error> {
+        let start = Instant::now();
+        let kept = self.method.bounds();
+        let bounds = self.bounds.unwrap_or(kept);
+        if bounds.min_deg() > kept.min_deg() || bounds.max_deg() < kept.max_deg() {
+            return Err(Error::BoundsBeyondMethod { asked: bounds, kept });
+        }
+        let set = PointSet::new(points)?;
+        let placement = Placement::new(&set, self.domain_radius)?;
+        let mut refiner =
+            Refiner::new(placement.lattice, self.method.rules()).with_coarsening(!self.without_coarsening);
+        refiner
+            .insert(set.sites(), monitor)
+            .map_err(|error| Error::of_refinement(error, || placement::unresolved(&set)))?;
+        let refined = Instant::now();
+
+        let relocation = self.method.relocation();
+        let domain = placement.domain(refiner.grid(), relocation)?;
+        let occupants = refiner.occupants();
+        let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
+        let extracted = Instant::now();
+
+        check(monitor)?;
+        let certificate = self.finish(&mut dual, bounds, &placement, points, monitor)?;
+        let certified = Instant::now();
+        let of_input = set.site_of_input().iter().map(|&site| dual.vertex_of_occupant[site as usize]);
+        Ok(Triangulation {
+            vertex_of_input: of_input.collect(),
+            mesh: dual.mesh,
+            certificate,
+            method: self.method,
+            patch: patch(&placement, domain),
+            max_level: deepest(&refiner) - domain.base_level,
+            seconds: Seconds {
+                refine: (refined - start).as_secs_f64(),
+                extract: (extracted - refined).as_secs_f64(),
+                certify: (certified - extracted).as_secs_f64(),
+                total: (certified - start).as_secs_f64(),
+            },
+            refiner,
+        })
+    }
+
+    /// Makes the mesh exactly Delaunay and certifies it.
+    fn finish(
+        &self,
+        dual: &mut Dual,
+        bounds: AngleBounds,
+        placement: &Placement,
+        points: &[DVec2],
+        monitor: &dyn Monitor,
+    ) -> Result<Certificate, Error> {
+        let mut fixed = vec![false; dual.mesh.vertices.len()];
+        for vertex in &dual.vertex_of_occupant {
+            fixed[vertex.index()] = true;
+        }
+        restore_delaunay(&mut dual.mesh, self.method.bounds(), |v: VertexId| !fixed[v.index()])?;
+        let total = dual.mesh.triangles.len() as u64;
+        monitor.progress(Phase::Certify, total / 2, total);
+        check(monitor)?;
+        let options = CertifyOptions {
+            bounds,
+            inputs: Some(points),
+            min_edge: placement.shortest_edge,
+            ..CertifyOptions::default()
+        };
+        let certificate = certify(&dual.mesh, &options);
+        monitor.progress(Phase::Certify, total, total);
+        if certificate.holds() {
+            return Ok(certificate);
+        }
+        let mesh: TriMesh = std::mem::take(&mut dual.mesh);
+        Err(Error::NotCertified { mesh: Box::new(mesh), certificate: Box::new(certificate) })
+    }
+}
+
+fn patch(placement: &Placement, domain: Domain) -> Patch {
+    Patch {
+        centre: placement.lattice.origin(),
+        radius: f64::from(domain.radius) * placement.lattice.spacing(domain.base_level),
+        domain,
+    }
+}
+
+/// The finest level that holds a leaf.
+fn deepest(refiner: &Refiner) -> u8 {
+    let tiles = refiner.grid().tiles();
+    let holds = |level: &u8| tiles.level(*level).iter().any(|t| t.subdivided != 0);
+    (0..tiles.levels() as u8).rev().find(holds).map_or(0, |level| level + 1)
+}

@@ -1,0 +1,242 @@
+//! Where the hexagon grid is laid, and how fine it may get.
+//!
+//! Two points whose hexagons are four steps or more apart are in conflict with
+//! no rule. Hexagons at most three steps apart hold points at most
+//! `3 + 2 / sqrt(3)` spacings apart. So on a level whose spacing is that small a
+//! part of the closest pair's distance nothing is subdivided, ever: that level
+//! is the last. The spacing of level 0 is chosen as a power of two times it.
+
+use crate::error::Error;
+use hexdel_classify::{Domain, Relocation};
+use hexdel_geom::{ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
+use hexdel_grid::{Grid, Lattice};
+
+/// `3 + 2 / sqrt(3)`, rounded up: the largest distance, in spacings, of points
+/// in hexagons three steps apart.
+const CONFLICT_REACH: f64 = 4.154_700_539;
+
+/// The paper's bound on the shortest edge over the distance of the closest
+/// pair (section 6.3): `sqrt(7) / (12 sqrt(3))`.
+const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
+
+/// Largest coordinate: predicates take products of four, and of differences.
+const MAX_COORDINATE: f64 = 1e70;
+
+/// Spacings of the finest level that a coordinate's last place must fit into.
+/// An angle is then off by about `2^-15` radians, two thousandths of a degree,
+/// at the very worst, and reported as limited by rounding.
+const LAST_PLACES: f64 = 65536.0;
+
+/// Hexagons of level 0 across the input: the base level is chosen later, and
+/// coarser levels than the input's own size are never of use.
+const LEVEL_0_SPACINGS: f64 = 4.0;
+
+/// Steps from the centre of level 0 to the rim, when a radius is prescribed:
+/// with these and powers of two, a spacing is never more than 4/3 too fine,
+/// and the shortest edge stays above the paper's bound (6 / 4.15 = 1.44).
+const STEPS: [u32; 3] = [3, 4, 5];
+
+/// The lattice for a set of sites.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placement {
+    pub(crate) lattice: Lattice,
+    /// The smallest length that an edge may have, if there are two sites.
+    pub(crate) shortest_edge: Option<f64>,
+    /// Steps of level 0 to the rim, if the domain's radius is prescribed.
+    steps: Option<u32>,
+    /// The level that is never subdivided.
+    last_level: u8,
+}
+
+impl Placement {
+    /// Lays the grid around the sites' smallest enclosing circle.
+    pub(crate) fn new(points: &PointSet, radius: Option<f64>) -> Result<Self, Error> {
+        check_range(points)?;
+        if let Some(radius) = radius.filter(|r| !(r.is_finite() && *r > 0.0)) {
+            return Err(Error::InvalidRadius { radius });
+        }
+        let sites = points.sites();
+        let circle = smallest_enclosing_circle(sites).expect("a point set holds at least one finite point");
+        let Some(pair) = closest_pair(sites) else {
+            return Self::of_one(circle.center, radius);
+        };
+        check_resolved(points, &pair)?;
+        let finest = pair.distance / CONFLICT_REACH;
+        let (spacing, steps, last_level) = match radius {
+            None => {
+                let levels = levels_between(LEVEL_0_SPACINGS * circle.radius, finest);
+                (doubled(finest, levels), None, levels)
+            }
+            Some(radius) => {
+                let (steps, levels) = steps_for(radius, finest);
+                (radius / f64::from(steps), Some(steps), levels)
+            }
+        };
+        if last_level >= Grid::MAX_LEVELS {
+            let least = halved(circle.radius * CONFLICT_REACH, Grid::MAX_LEVELS - 4);
+            return Err(too_close(points, &pair, least));
+        }
+        let shortest_edge = Some(pair.distance * SHORTEST_EDGE);
+        Ok(Self { lattice: Lattice::new(circle.center, spacing), shortest_edge, steps, last_level })
+    }
+
+    /// A single site has no scale of its own: a patch of radius 1 or, far away,
+    /// as small as coordinates resolve there.
+    fn of_one(site: DVec2, radius: Option<f64>) -> Result<Self, Error> {
+        let least = finest_spacing(site);
+        let (spacing, steps) = match radius {
+            Some(radius) => (radius / f64::from(STEPS[0]), Some(STEPS[0])),
+            None => (least.max(1.0), None),
+        };
+        if let Some(radius) = radius.filter(|_| spacing < least) {
+            return Err(Error::DomainTooSmall { radius, least: least * f64::from(STEPS[0]) });
+        }
+        Ok(Self { lattice: Lattice::new(site, spacing), shortest_edge: None, steps, last_level: 0 })
+    }
+
+    /// The patch of the refined grid to cut the mesh out of: the one with the
+    /// fewest triangles, or the coarsest of the radius prescribed.
+    pub(crate) fn domain(&self, grid: &Grid, relocation: Relocation) -> Result<Domain, Error> {
+        let Some(steps) = self.steps else {
+            return Ok(Domain::smallest(grid, relocation));
+        };
+        let mut least = f64::INFINITY;
+        for level in 0..=self.last_level {
+            let Some(around) = Domain::around(grid, level) else { break };
+            let asked = u64::from(steps) << level;
+            if u64::from(around.radius) <= asked && asked <= u64::from(Domain::MAX_RADIUS) {
+                return Ok(Domain { radius: asked as u32, ..around });
+            }
+            least = least.min(f64::from(around.radius) * self.lattice.spacing(level));
+        }
+        Err(Error::DomainTooSmall { radius: f64::from(steps) * self.lattice.spacing(0), least })
+    }
+}
+
+/// How many times `finest` must be doubled to reach `size`; at most 255.
+fn levels_between(size: f64, finest: f64) -> u8 {
+    // A length leaves the range of numbers long before the count leaves its own.
+    let reaches = |&levels: &u8| doubled(finest, levels) >= size;
+    (0..u8::MAX).find(reaches).unwrap_or(u8::MAX)
+}
+
+/// `length * 2^times`. Exact, and the same on every platform, which neither
+/// powers nor logarithms of the standard library promise.
+fn doubled(length: f64, times: u8) -> f64 {
+    (0..times).fold(length, |length, _| 2.0 * length)
+}
+
+/// `length / 2^times`; exact as [`doubled`].
+fn halved(length: f64, times: u8) -> f64 {
+    (0..times).fold(length, |length, _| 0.5 * length)
+}
+
+/// Steps of level 0 to the rim, and levels, such that the last level is just
+/// fine enough.
+fn steps_for(radius: f64, finest: f64) -> (u32, u8) {
+    let fits = |&(steps, levels): &(u32, u8)| halved(radius / f64::from(steps), levels) <= finest;
+    (0..=u8::MAX)
+        .flat_map(|levels| STEPS.map(|steps| (steps, levels)))
+        .find(fits)
+        .unwrap_or((STEPS[0], u8::MAX))
+}
+
+fn check_range(points: &PointSet) -> Result<(), Error> {
+    let beyond = |p: &DVec2| p.abs().max_element() > MAX_COORDINATE;
+    match points.sites().iter().position(beyond) {
+        Some(site) => Err(Error::OutOfRange {
+            index: points.input_of_site()[site] as usize,
+            point: points.sites()[site],
+            limit: MAX_COORDINATE,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The finest spacing that coordinates resolve at a point.
+fn finest_spacing(at: DVec2) -> f64 {
+    at.abs().max_element() * f64::EPSILON * LAST_PLACES
+}
+
+/// Whether all pairs are far enough apart for the coordinates where they lie,
+/// and for the predicates; up to a factor of two for all but the closest.
+///
+/// Coordinates resolve less the larger they are, so the pair that is too close
+/// need not be the closest. Sites are looked at from the largest coordinates
+/// down, doubling by doubling: of those beyond a size the closest pair, until
+/// even the closest of all would do at that size. In most inputs it does at
+/// every size.
+fn check_resolved(points: &PointSet, pair: &ClosestPair) -> Result<(), Error> {
+    check_pair(points, pair)?;
+    let sites = points.sites();
+    let size = |site: &DVec2| site.abs().max_element();
+    let mut beyond = sites.iter().map(size).fold(0.0, f64::max);
+    while pair.distance < finest_spacing(DVec2::splat(beyond)) * CONFLICT_REACH {
+        beyond *= 0.5;
+        let indices: Vec<usize> = (0..sites.len()).filter(|&i| size(&sites[i]) >= beyond).collect();
+        let far: Vec<DVec2> = indices.iter().map(|&i| sites[i]).collect();
+        if let Some(found) = closest_pair(&far) {
+            check_pair(points, &ClosestPair { a: indices[found.a], b: indices[found.b], ..found })?;
+        }
+    }
+    Ok(())
+}
+
+fn check_pair(points: &PointSet, pair: &ClosestPair) -> Result<(), Error> {
+    let finest = [pair.a, pair.b].map(|i| finest_spacing(points.sites()[i]));
+    let least = (finest[0].max(finest[1]) * CONFLICT_REACH).max(1.0 / MAX_COORDINATE);
+    if pair.distance < least { Err(too_close(points, pair, least)) } else { Ok(()) }
+}
+
+fn too_close(points: &PointSet, pair: &ClosestPair, least: f64) -> Error {
+    Error::TooClose {
+        a: points.input_of_site()[pair.a] as usize,
+        b: points.input_of_site()[pair.b] as usize,
+        points: [points.sites()[pair.a], points.sites()[pair.b]],
+        distance: pair.distance,
+        least,
+    }
+}
+
+/// The error for a pair that refinement could not separate.
+pub(crate) fn unresolved(points: &PointSet) -> Error {
+    match closest_pair(points.sites()) {
+        Some(pair) => too_close(points, &pair, 2.0 * pair.distance),
+        None => Error::Points(hexdel_geom::PointsError::Empty),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_what_they_are_derived_from() {
+        let sqrt = f64::sqrt;
+        assert!(CONFLICT_REACH >= 3.0 + 2.0 / sqrt(3.0));
+        assert!(CONFLICT_REACH < 3.0 + 2.0 / sqrt(3.0) + 1e-8);
+        assert!((SHORTEST_EDGE - sqrt(7.0) / (12.0 * sqrt(3.0))).abs() < 1e-15);
+    }
+
+    #[test]
+    fn levels_are_as_many_as_doublings() {
+        for levels in 0..60 {
+            let size = doubled(0.3, levels);
+            assert_eq!(levels_between(size, 0.3), levels);
+            assert_eq!(levels_between(size.next_up(), 0.3), levels + 1);
+            assert_eq!(halved(size, levels), 0.3);
+        }
+        assert_eq!((levels_between(0.0, 1.0), levels_between(f64::INFINITY, 1e300)), (0, 28));
+    }
+
+    #[test]
+    fn a_prescribed_radius_makes_the_last_level_just_fine_enough() {
+        for i in 1..200 {
+            let (radius, finest) = (3.7, 0.013 * f64::from(i));
+            let (steps, levels) = steps_for(radius, finest);
+            let last = halved(radius / f64::from(steps), levels);
+            assert!(last <= finest);
+            assert!(levels == 0 && steps == 3 || last >= finest * 0.75 * (1.0 - 1e-12), "{last} {finest}");
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The result: a mesh, what it promises, and how it was made.
+
+use crate::mesher::Method;
+use hexdel_classify::Domain;
+use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId};
+use hexdel_refine::Refiner;
+use serde::Serialize;
+
+/// A certified mesh of points.
+#[derive(Clone, Debug)]
+pub struct Triangulation {
+    /// Vertices and counter-clockwise triangles.
+    pub mesh: TriMesh,
+    /// The vertex of each input point; duplicates share one.
+    pub vertex_of_input: Vec<VertexId>,
+    /// What the mesh was found to keep.
+    pub certificate: Certificate,
+    /// How it was made.
+    pub method: Method,
+    /// What it covers.
+    pub patch: Patch,
+    /// Levels used below the coarsest.
+    pub max_level: u8,
+    /// How long it took.
+    pub seconds: Seconds,
+    /// The grid behind the mesh.
+    pub(crate) refiner: Refiner,
+}
+
+/// The regular hexagon that a mesh covers, with corners east and west.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// Centre of the points' smallest enclosing circle.
+    pub centre: DVec2,
+    /// Circumradius, in input units.
+    pub radius: f64,
+    /// The same in the grid's terms.
+    pub(crate) domain: Domain,
+}
+
+/// Seconds of wall time by phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Seconds {
+    /// Checking the input and refining the grid.
+    pub refine: f64,
+    /// Making vertices and triangles.
+    pub extract: f64,
+    /// The exact Delaunay property, and the certificate.
+    pub certify: f64,
+    /// All of it.
+    pub total: f64,
+}
+
+/// The figures of a mesh, for a file or a pipe.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report<'a> {
+    /// How the mesh was made.
+    pub method: &'static str,
+    /// All that the certificate says.
+    #[serde(flatten)]
+    pub certificate: &'a Certificate,
+    /// Levels used below the coarsest.
+    pub max_level: u8,
+    /// Circumradius of the domain, in input units.
+    pub domain_radius: f64,
+    /// How long it took.
+    pub seconds: Seconds,
+}
+
+impl Triangulation {
+    /// The figures of this mesh.
+    ///
+    /// ```
+    /// # use hexdel::DVec2;
+    /// let made = hexdel::triangulate(&[DVec2::ZERO, DVec2::X])?;
+    /// let report = made.report();
+    /// assert_eq!(report.certificate.out_of_bounds, 0);
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    pub fn report(&self) -> Report<'_> {
+        Report {
+            method: match self.method {
+                Method::Templates => "templates",
+                Method::Simple => "simple",
+            },
+            certificate: &self.certificate,
+            max_level: self.max_level,
+            domain_radius: self.patch.radius,
+            seconds: self.seconds,
+        }
+    }
+
+    /// For each vertex the first input point it stands for, if any.
+    ///
+    /// ```
+    /// # use hexdel::DVec2;
+    /// let made = hexdel::triangulate(&[DVec2::ZERO, DVec2::X, DVec2::ZERO])?;
+    /// let inputs = made.input_of_vertex();
+    /// assert_eq!(inputs[made.vertex_of_input[2].index()], Some(0));
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    pub fn input_of_vertex(&self) -> Vec<Option<u32>> {
+        let mut inputs = vec![None; self.mesh.vertices.len()];
+        for (input, vertex) in self.vertex_of_input.iter().enumerate().rev() {
+            inputs[vertex.index()] = Some(input as u32);
+        }
+        inputs
+    }
+}

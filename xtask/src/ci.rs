@@ -1,0 +1,58 @@
+//! `cargo xtask ci`: all that must pass before a change is taken, in the order
+//! of what fails fastest.
+//!
+//! The steps are run as a person would type them; this task installs nothing
+//! and needs the Rust toolchain with rustfmt and clippy.
+
+use crate::Outcome;
+use crate::tidy;
+use std::env;
+use std::ffi::OsString;
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+/// The steps, as arguments of cargo.
+const STEPS: &[&str] = &[
+    "fmt --all --check",
+    "xtask tidy",
+    "clippy --workspace --all-targets -- -D warnings",
+    "test --workspace",
+];
+
+/// Runs all steps, up to the first that fails.
+pub(crate) fn run() -> Outcome {
+    let root = tidy::root();
+    // Cargo says which it is, so that a chosen toolchain stays chosen.
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    STEPS.iter().try_for_each(|step| run_step(&cargo, step, &root))
+}
+
+fn run_step(cargo: &OsString, step: &str, root: &Path) -> Outcome {
+    eprintln!("ci: cargo {step}");
+    let start = Instant::now();
+    let status = Command::new(cargo).args(step.split(' ')).current_dir(root).status()?;
+    if !status.success() {
+        return Err(format!("`cargo {step}` failed ({status})").into());
+    }
+    eprintln!("ci: cargo {step}: {:.0} s", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tests_are_run_as_the_readme_says() {
+        let readme = std::fs::read_to_string(tidy::root().join("README.md")).unwrap();
+        let tests = STEPS.iter().find(|step| step.starts_with("test")).unwrap();
+        assert!(readme.contains(&format!("\ncargo {tests}\n")));
+    }
+
+    #[test]
+    fn a_step_that_fails_is_a_fault() {
+        let fault = run_step(&"cargo".into(), "no-such-command", &tidy::root());
+        assert!(fault.unwrap_err().to_string().contains("`cargo no-such-command` failed"));
+    }
+}

@@ -1,0 +1,207 @@
+//! The figures of `docs/algorithm.md`.
+//!
+//! Two kinds: fixtures as the facade meshes them (paper, Fig. 3, 4, 5 and 7),
+//! and the templates of relocation, each on the smallest grid that has it
+//! (Fig. 8 and 9). Those grids are made by hand, so every figure's mesh is
+//! certified before it is drawn.
+
+use hexdel::classify::hexagons::hexagons;
+use hexdel::classify::{Domain, Occupant, Relocation, extract};
+use hexdel::geom::{CertifyOptions, certify};
+use hexdel::grid::{Address, Direction, Grid, Hex, Lattice};
+use hexdel::io::{MeshFormat, MeshView, Overlay, OverlayClass, Picture, read_points, write_mesh_to};
+use hexdel::refine::{Refiner, RuleSet};
+use hexdel::{AngleBounds, DVec2, Mesher, Method, TriMesh, Unwatched};
+use std::collections::{BTreeMap, BTreeSet};
+use std::error::Error;
+use std::path::Path;
+
+/// The longer side of a template, pixels.
+const SMALL_PX: f64 = 360.0;
+
+/// The longer side of a meshed fixture, pixels.
+const LARGE_PX: f64 = 640.0;
+
+/// Every figure by file name.
+pub(super) fn all(root: &Path) -> Result<BTreeMap<String, Vec<u8>>, Box<dyn Error>> {
+    let mut figures = of_fixture(root, "five")?;
+    figures.extend(of_grid()?);
+    figures.extend(of_templates()?);
+    figures.extend(of_points()?);
+    Ok(figures)
+}
+
+type Figures = Result<Vec<(String, Vec<u8>)>, Box<dyn Error>>;
+
+/// A fixture: its grid, the dual over it, and the mesh by angles; refined
+/// simply and fully.
+fn of_fixture(root: &Path, name: &str) -> Result<BTreeMap<String, Vec<u8>>, Box<dyn Error>> {
+    let points = read_points(root.join(format!("fixtures/points/{name}.node")))?.points;
+    let mut figures = BTreeMap::new();
+    for (method, suffix) in [(Method::Simple, "simple"), (Method::Templates, "templates")] {
+        let made = Mesher::new().method(method).triangulate(&points)?;
+        let overlay = used_classes(made.overlay());
+        let drawing = Drawing {
+            mesh: &made.mesh,
+            inputs: made.input_of_vertex(),
+            overlay: if method == Method::Simple { unmoved(overlay) } else { overlay },
+            bounds: method.bounds(),
+            size_px: LARGE_PX,
+        };
+        figures.insert(format!("{name}-{suffix}-hexagons.svg"), drawing.svg(Show::Hexagons)?);
+        figures.insert(format!("{name}-{suffix}-dual.svg"), drawing.svg(Show::Dual)?);
+        figures.insert(format!("{name}-{suffix}-mesh.svg"), drawing.svg(Show::Mesh)?);
+    }
+    Ok(figures)
+}
+
+/// Subdivision and balance (paper, Fig. 1 and 2), with the plain dual.
+fn of_grid() -> Figures {
+    let plain = |addresses: &[Address]| {
+        let mut grid = Grid::new(Lattice::new(DVec2::ZERO, 1.0));
+        for &at in addresses {
+            grid.subdivide(at);
+        }
+        template(grid, &[], AngleBounds::SIMPLE)
+    };
+    let hexes = |hexes: &[Hex]| hexes.iter().map(|&h| Address::new(0, h)).collect::<Vec<_>>();
+    let east = Direction::new(0).step();
+    let three = [Hex::ORIGIN, east, Direction::new(1).step()];
+    Ok(vec![
+        ("grid-one.svg".to_owned(), plain(&hexes(&three[..1]))?),
+        ("grid-two-joined.svg".to_owned(), plain(&hexes(&three[..2]))?),
+        ("grid-three-joined.svg".to_owned(), plain(&hexes(&three))?),
+        ("grid-balance.svg".to_owned(), plain(&[Address::new(2, Hex::ORIGIN)])?),
+    ])
+}
+
+/// The templates of moved centres, by what is subdivided around the origin.
+fn of_templates() -> Figures {
+    let step = |i: usize| Direction::new(i).step();
+    let beyond = |i: usize| [5, 0, 1].map(|turn| step(i) + step(i + turn));
+    let run = |n: usize| (0..n).flat_map(beyond).collect::<BTreeSet<_>>();
+    let few = |hexes: &[Hex]| hexes.iter().copied().collect::<BTreeSet<_>>();
+    let grids = [
+        ("moved-center-1", few(&[Hex::ORIGIN])),
+        ("moved-center-2", few(&[Hex::ORIGIN, step(0)])),
+        ("moved-center-3-single", few(&[step(0), step(1), step(2)])),
+        ("moved-center-3-run-2", run(2)),
+        ("moved-center-3-run-3", run(3)),
+        ("moved-center-3-run-4", run(4)),
+        ("blossom", run(6)),
+    ];
+    let mut figures = Vec::new();
+    for (name, subdivided) in grids {
+        let mut grid = Grid::new(Lattice::new(DVec2::ZERO, 1.0));
+        for hex in subdivided {
+            grid.subdivide(Address::new(0, hex));
+        }
+        let svg = template(grid, &[], AngleBounds::EXTENDED).map_err(|e| format!("{name}: {e}"))?;
+        figures.push((format!("{name}.svg"), svg));
+    }
+    Ok(figures)
+}
+
+/// The templates of occupied hexagons (paper, Fig. 8): a point within reach of
+/// the centre, and one beyond.
+fn of_points() -> Figures {
+    let mut figures = Vec::new();
+    for (name, point) in [("occupied-1", DVec2::new(0.2, 0.1)), ("occupied-2", DVec2::new(0.42, 0.2))] {
+        let mut refiner = Refiner::new(Lattice::new(DVec2::ZERO, 1.0), RuleSet::extended());
+        refiner.insert(&[point], &Unwatched)?;
+        let occupants = refiner.occupants();
+        let svg = template(refiner.grid().clone(), &occupants, AngleBounds::EXTENDED)?;
+        figures.push((format!("{name}.svg"), svg));
+    }
+    Ok(figures)
+}
+
+/// A small grid with its dual over it; plain within simple bounds, else
+/// relocated.
+fn template(mut grid: Grid, occupants: &[Occupant], bounds: AngleBounds) -> Result<Vec<u8>, Box<dyn Error>> {
+    let simple = bounds == AngleBounds::SIMPLE;
+    let relocation = if simple { Relocation::Occupied } else { Relocation::Full };
+    let domain = Domain::around(&grid, 0).ok_or("a point lies on no level")?;
+    let dual = extract(&mut grid, occupants, domain, relocation, &Unwatched)?;
+    // Four corners on a circle are left as they come: no input is at stake.
+    let options = CertifyOptions { bounds, require_delaunay: false, ..CertifyOptions::default() };
+    let certificate = certify(&dual.mesh, &options);
+    if !certificate.holds() {
+        return Err(format!("the mesh is not certified: {:?}", certificate.violations.first()).into());
+    }
+    let mut inputs = vec![None; dual.mesh.vertices.len()];
+    for (i, vertex) in dual.vertex_of_occupant.iter().enumerate() {
+        inputs[vertex.index()] = Some(i as u32);
+    }
+    let mut overlay = used_classes(hexdel::picture::overlay(hexagons(&grid, domain, occupants)));
+    if simple {
+        overlay = unmoved(overlay);
+    }
+    Drawing { mesh: &dual.mesh, inputs, overlay, bounds, size_px: SMALL_PX }.svg(Show::Dual)
+}
+
+/// What a figure shows.
+#[derive(Clone, Copy, PartialEq)]
+enum Show {
+    /// The grid alone.
+    Hexagons,
+    /// The edges of the mesh over the grid.
+    Dual,
+    /// The triangles by their smallest angle.
+    Mesh,
+}
+
+struct Drawing<'a> {
+    mesh: &'a TriMesh,
+    /// For each vertex its input point.
+    inputs: Vec<Option<u32>>,
+    overlay: Overlay,
+    bounds: AngleBounds,
+    size_px: f64,
+}
+
+impl Drawing<'_> {
+    fn svg(&self, show: Show) -> Result<Vec<u8>, Box<dyn Error>> {
+        let mut picture = Picture::default();
+        picture.size_px = self.size_px;
+        picture.angle_range_deg = [self.bounds.min_deg(), 60.0];
+        picture.fill_triangles = show == Show::Mesh;
+        picture.edges = show != Show::Hexagons;
+        picture.overlay = Some(&self.overlay).filter(|_| show != Show::Mesh);
+        let view = MeshView::new(self.mesh).with_input_indices(&self.inputs).with_picture(picture);
+        let mut svg = Vec::new();
+        write_mesh_to(&mut svg, MeshFormat::Svg, &view, "figure")?;
+        Ok(svg)
+    }
+}
+
+/// The layer without the classes that nothing in it has.
+fn used_classes(mut overlay: Overlay) -> Overlay {
+    let used: BTreeSet<usize> = overlay.polygons.iter().map(|p| p.class).collect();
+    for polygon in &mut overlay.polygons {
+        polygon.class = used.range(..polygon.class).count();
+    }
+    overlay.classes = used.iter().map(|&class| overlay.classes[class].clone()).collect();
+    overlay
+}
+
+/// The layer with semi-hexagons, full and occupied ones told apart, no more:
+/// where no centre moves, the other classes are without meaning.
+fn unmoved(mut overlay: Overlay) -> Overlay {
+    let label = |old: &str| match old {
+        "semi-hexagon" => "semi-hexagon",
+        "occupied 1" | "occupied 2" => "occupied",
+        _ => "full hexagon",
+    };
+    for class in &mut overlay.classes {
+        class.label = label(&class.label).to_owned();
+    }
+    let first = |class: usize| {
+        let same = |other: &OverlayClass| other.label == overlay.classes[class].label;
+        overlay.classes.iter().position(same).unwrap_or(class)
+    };
+    for polygon in &mut overlay.polygons {
+        polygon.class = first(polygon.class);
+    }
+    used_classes(overlay)
+}
