@@ -79,10 +79,7 @@ impl Limits {
         let (lo, hi) = (bounds.min_deg().to_radians(), bounds.max_deg().to_radians());
         let inset = |deg: f64| {
             let d = deg.to_radians();
-            Cot {
-                min: cot(lo + d),
-                max: cot(hi - d),
-            }
+            Cot { min: cot(lo + d), max: cot(hi - d) }
         };
         let slack = SLACK_DEG.to_radians();
         Self {
@@ -125,11 +122,7 @@ impl Limits {
             // An inverted corner's angle is in (-pi, 0]; beyond a half-turn
             // below the bound the distance is capped.
             let along = self.lower.cos * dot + self.lower.sin * cross;
-            return if low > 0.0 {
-                -angle(low, along)
-            } else {
-                -std::f64::consts::PI
-            };
+            return if low > 0.0 { -angle(low, along) } else { -std::f64::consts::PI };
         }
         if low > 0.0 {
             return -angle(low, self.lower.cos * dot + self.lower.sin * cross);
@@ -156,10 +149,7 @@ impl Limits {
         }
         let low = self.lower.cos * m.cross - self.lower.sin * m.dot[max];
         let high = self.upper.sin * m.dot[min] - self.upper.cos * m.cross;
-        (
-            (low < 0.0).then_some((max, low)),
-            (high < 0.0 && m.cross > 0.0).then_some((min, high)),
-        )
+        ((low < 0.0).then_some((max, low)), (high < 0.0 && m.cross > 0.0).then_some((min, high)))
     }
 
     /// Factors of cross and dot product in the lower test.
@@ -199,18 +189,13 @@ impl Measure {
     #[inline]
     pub(crate) fn of(a: DVec2, b: DVec2, c: DVec2) -> Self {
         let (u, v, w) = (b - a, c - b, a - c);
-        Self {
-            cross: u.perp_dot(-w),
-            dot: [-u.dot(w), -v.dot(u), -w.dot(v)],
-        }
+        Self { cross: u.perp_dot(-w), dot: [-u.dot(w), -v.dot(u), -w.dot(v)] }
     }
 
     #[inline]
     fn within(&self, cot: Cot) -> bool {
         let [a, b, c] = self.dot;
-        self.cross > 0.0
-            && a.max(b).max(c) <= self.cross * cot.min
-            && a.min(b).min(c) >= self.cross * cot.max
+        self.cross > 0.0 && a.max(b).max(c) <= self.cross * cot.min && a.min(b).min(c) >= self.cross * cot.max
     }
 }
 
@@ -238,23 +223,13 @@ mod tests {
     #[test]
     fn residuals_are_the_angles_outside_the_target() {
         let limits = Limits::new(AngleBounds::EXTENDED);
-        for deg in [
-            -170.0, -60.0, -1.0, 1.0, 30.0, 43.9, 60.0, 89.9, 90.5, 120.0, 175.0f64,
-        ] {
+        for deg in [-170.0, -60.0, -1.0, 1.0, 30.0, 43.9, 60.0, 89.9, 90.5, 120.0, 175.0f64] {
             let t = deg.to_radians();
             let m = Measure::of(DVec2::ZERO, DVec2::X * 2.0, DVec2::new(t.cos(), t.sin()));
             let lo = (AngleBounds::EXTENDED.min_deg() + SLACK_DEG).to_radians();
             let hi = (90.0 - SLACK_DEG).to_radians();
-            let want = if t < lo {
-                (t - lo).max(-std::f64::consts::PI)
-            } else {
-                (t - hi).max(0.0)
-            };
-            assert!(
-                (limits.residual(&m, 0) - want).abs() < 3e-5,
-                "{deg}: {}",
-                limits.residual(&m, 0)
-            );
+            let want = if t < lo { (t - lo).max(-std::f64::consts::PI) } else { (t - hi).max(0.0) };
+            assert!((limits.residual(&m, 0) - want).abs() < 3e-5, "{deg}: {}", limits.residual(&m, 0));
         }
     }
 

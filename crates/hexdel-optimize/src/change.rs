@@ -16,11 +16,7 @@ pub(crate) enum Action {
     /// The disc around this vertex is refilled without it.
     Remove { vertex: u32, refill: usize },
     /// The disc gets a new vertex joined to its whole outline.
-    Insert {
-        disc: [u32; 6],
-        len: usize,
-        at: DVec2,
-    },
+    Insert { disc: [u32; 6], len: usize, at: DVec2 },
     /// The side opposite a corner is exchanged for the other diagonal.
     Flip { triangle: u32, corner: usize },
 }
@@ -110,11 +106,7 @@ impl Finder<'_> {
 
     fn cost_at(&self, v: u32, degree: usize) -> f64 {
         degree_cost(self.limits, self.mesh.sector[v as usize], degree)
-            - degree_cost(
-                self.limits,
-                self.mesh.sector[v as usize],
-                self.mesh.degree(v),
-            )
+            - degree_cost(self.limits, self.mesh.sector[v as usize], self.mesh.degree(v))
     }
 
     fn removals(&mut self, v: u32) {
@@ -127,29 +119,16 @@ impl Finder<'_> {
             return;
         }
         let mut chosen = Vec::new();
-        self.refills
-            .choose(self.mesh, self.limits, &ring, closed, 2, &mut chosen);
+        self.refills.choose(self.mesh, self.limits, &ring, closed, 2, &mut chosen);
         let before: f64 = ring
             .iter()
             .chain([&v])
-            .map(|&w| {
-                degree_cost(
-                    self.limits,
-                    self.mesh.sector[w as usize],
-                    self.mesh.degree(w),
-                )
-            })
+            .map(|&w| degree_cost(self.limits, self.mesh.sector[w as usize], self.mesh.degree(w)))
             .sum();
-        let old: f64 = tris
-            .iter()
-            .map(|&t| self.limits.energy(&self.mesh.measure(t)))
-            .sum();
+        let old: f64 = tris.iter().map(|&t| self.limits.energy(&self.mesh.measure(t))).sum();
         for (cost, refill) in chosen {
             let cost = cost - before - SHAPE_WEIGHT * old;
-            self.out.push(Change {
-                cost,
-                action: Action::Remove { vertex: v, refill },
-            });
+            self.out.push(Change { cost, action: Action::Remove { vertex: v, refill } });
         }
     }
 
@@ -166,18 +145,10 @@ impl Finder<'_> {
             cost += self.cost_at(v, if i == 0 || i == 3 { n + 1 } else { n - 1 });
         }
         let [a, b, c, f] = d.map(|v| self.mesh.pos[v as usize]);
-        let shape =
-            self.limits.energy(&Measure::of(a, b, f)) + self.limits.energy(&Measure::of(f, c, a));
-        let old =
-            self.limits.energy(&self.mesh.measure(t)) + self.limits.energy(&self.mesh.measure(u));
+        let shape = self.limits.energy(&Measure::of(a, b, f)) + self.limits.energy(&Measure::of(f, c, a));
+        let old = self.limits.energy(&self.mesh.measure(t)) + self.limits.energy(&self.mesh.measure(u));
         cost += SHAPE_WEIGHT * (shape - old);
-        self.out.push(Change {
-            cost,
-            action: Action::Flip {
-                triangle: t,
-                corner: k,
-            },
-        });
+        self.out.push(Change { cost, action: Action::Flip { triangle: t, corner: k } });
     }
 
     /// All discs that add one to three neighbours to `base`.
@@ -193,11 +164,7 @@ impl Finder<'_> {
         for mask in 1u32..1 << beyond.len() {
             if mask.count_ones() <= 3 {
                 let mut disc = base.to_vec();
-                disc.extend(
-                    (0..beyond.len())
-                        .filter(|i| mask >> i & 1 == 1)
-                        .map(|i| beyond[i]),
-                );
+                disc.extend((0..beyond.len()).filter(|i| mask >> i & 1 == 1).map(|i| beyond[i]));
                 self.insertion(&disc);
             }
         }
@@ -207,42 +174,22 @@ impl Finder<'_> {
         let Some(outline) = outline(self.mesh, disc) else {
             return;
         };
-        let at = outline
-            .iter()
-            .map(|&v| self.mesh.pos[v as usize])
-            .sum::<DVec2>()
-            / outline.len() as f64;
+        let at = outline.iter().map(|&v| self.mesh.pos[v as usize]).sum::<DVec2>() / outline.len() as f64;
         let mut cost = degree_cost(self.limits, std::f64::consts::TAU, outline.len());
         let mut shape = 0.0;
         for (i, &v) in outline.iter().enumerate() {
-            let inside = disc
-                .iter()
-                .filter(|&&t| self.mesh.tri[t as usize].v.contains(&v))
-                .count();
+            let inside = disc.iter().filter(|&&t| self.mesh.tri[t as usize].v.contains(&v)).count();
             cost += self.cost_at(v, self.mesh.degree(v) + 2 - inside);
             let w = outline[(i + 1) % outline.len()];
-            shape += self.limits.energy(&Measure::of(
-                at,
-                self.mesh.pos[v as usize],
-                self.mesh.pos[w as usize],
-            ));
+            shape +=
+                self.limits.energy(&Measure::of(at, self.mesh.pos[v as usize], self.mesh.pos[w as usize]));
         }
-        let old: f64 = disc
-            .iter()
-            .map(|&t| self.limits.energy(&self.mesh.measure(t)))
-            .sum();
+        let old: f64 = disc.iter().map(|&t| self.limits.energy(&self.mesh.measure(t))).sum();
         cost += SHAPE_WEIGHT * (shape - old);
         if cost < 100.0 {
             let mut d = [NONE; 6];
             d[..disc.len()].copy_from_slice(disc);
-            self.out.push(Change {
-                cost,
-                action: Action::Insert {
-                    disc: d,
-                    len: disc.len(),
-                    at,
-                },
-            });
+            self.out.push(Change { cost, action: Action::Insert { disc: d, len: disc.len(), at } });
         }
     }
 }
@@ -276,12 +223,7 @@ pub(crate) fn outline(mesh: &Mesh, disc: &[u32]) -> Option<Vec<u32>> {
 
 /// Makes the change; the vertices whose motion should settle it are put into
 /// `verts`. False, and nothing changed, where the topology forbids it.
-pub(crate) fn apply(
-    mesh: &mut Mesh,
-    refills: &Refills,
-    action: Action,
-    verts: &mut Vec<u32>,
-) -> bool {
+pub(crate) fn apply(mesh: &mut Mesh, refills: &Refills, action: Action, verts: &mut Vec<u32>) -> bool {
     verts.clear();
     let mut made = Vec::new();
     match action {
@@ -307,9 +249,7 @@ pub(crate) fn apply(
             };
             let v = mesh.add_vertex(at, Motion::Free, std::f64::consts::TAU);
             let n = outline.len();
-            let new: Vec<[u32; 3]> = (0..n)
-                .map(|i| [v, outline[i], outline[(i + 1) % n]])
-                .collect();
+            let new: Vec<[u32; 3]> = (0..n).map(|i| [v, outline[i], outline[(i + 1) % n]]).collect();
             mesh.replace(&disc[..len], &new, &mut made);
             verts.push(v);
             verts.extend(outline);

@@ -26,112 +26,36 @@ pub(crate) struct Pass {
 /// square radians; measured.
 const HOPELESS: f64 = 1.0;
 
-const REMOVAL: Effort = Effort {
-    sweeps: Sweeps {
-        most: 30,
-        stall: 0.6,
-    },
-    turns: 3,
-    near: 0.0,
-    steps: 6,
-};
+const REMOVAL: Effort = Effort { sweeps: Sweeps { most: 30, stall: 0.6 }, turns: 3, near: 0.0, steps: 6 };
 
 /// The passes, each given a new partition of the mesh: cheap and likely
-/// removals first. With the costs of `refill`, four of five attempts at 0.4
-/// succeed while the mesh is fine; on a coarse one, one of ten.
-pub(crate) const PASSES: [Pass; 14] = [
-    Pass {
-        rings: 2,
-        refills: 1,
-        max_cost: 0.4,
-        near: 0.0,
-    },
-    Pass {
-        rings: 2,
-        refills: 1,
-        max_cost: 0.4,
-        near: 0.0,
-    },
-    Pass {
-        rings: 2,
-        refills: 1,
-        max_cost: 0.5,
-        near: 0.0,
-    },
-    Pass {
-        rings: 2,
-        refills: 1,
-        max_cost: 0.5,
-        near: 0.0,
-    },
-    Pass {
-        rings: 2,
-        refills: 1,
-        max_cost: 0.5,
-        near: 0.0,
-    },
-    Pass {
-        rings: 2,
-        refills: 1,
-        max_cost: 0.6,
-        near: 0.01,
-    },
-    Pass {
-        rings: 3,
-        refills: 1,
-        max_cost: 0.5,
-        near: 0.01,
-    },
-    Pass {
-        rings: 3,
-        refills: 1,
-        max_cost: 0.5,
-        near: 0.01,
-    },
-    Pass {
-        rings: 3,
-        refills: 2,
-        max_cost: 0.6,
-        near: 0.01,
-    },
-    Pass {
-        rings: 4,
-        refills: 1,
-        max_cost: 0.5,
-        near: 0.01,
-    },
-    Pass {
-        rings: 4,
-        refills: 1,
-        max_cost: 0.5,
-        near: 0.01,
-    },
-    Pass {
-        rings: 4,
-        refills: 2,
-        max_cost: 0.6,
-        near: 0.01,
-    },
-    Pass {
-        rings: 4,
-        refills: 2,
-        max_cost: 0.6,
-        near: 0.01,
-    },
-    Pass {
-        rings: 4,
-        refills: 2,
-        max_cost: 0.6,
-        near: 0.01,
-    },
+/// removals first. With the costs of `refill`, four of five attempts at 0.5
+/// succeed while the mesh is fine; on a coarse one, one of ten. One ring is
+/// enough for half of the removals from a fine start.
+pub(crate) const PASSES: [Pass; 13] = [
+    pass(1, 1, 0.5, 0.0),
+    pass(2, 1, 0.5, 0.0),
+    pass(2, 1, 0.5, 0.0),
+    pass(2, 1, 0.5, 0.0),
+    pass(2, 1, 0.6, 0.01),
+    pass(3, 1, 0.5, 0.01),
+    pass(3, 1, 0.5, 0.01),
+    pass(3, 2, 0.6, 0.01),
+    pass(4, 1, 0.5, 0.01),
+    pass(4, 1, 0.5, 0.01),
+    pass(4, 2, 0.6, 0.01),
+    pass(4, 2, 0.6, 0.01),
+    pass(4, 2, 0.6, 0.01),
 ];
+
+const fn pass(rings: u8, refills: usize, max_cost: f64, near: f64) -> Pass {
+    Pass { rings, refills, max_cost, near }
+}
 
 /// Tries every vertex once; returns how many were removed.
 pub(crate) fn decimate(work: &mut Work, pass: Pass) -> usize {
     let mut order: Vec<(f64, u32)> = (0..work.mesh.pos.len() as u32)
-        .filter(|&v| {
-            work.mesh.alive(v) && !work.mesh.is_fixed(v) && work.failed[v as usize] < pass.rings
-        })
+        .filter(|&v| work.mesh.alive(v) && !work.mesh.is_fixed(v) && work.failed[v as usize] < pass.rings)
         .map(|v| (work.mesh.shortest_edge(v), v))
         .collect();
     order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -162,19 +86,9 @@ fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
     let slides = matches!(work.mesh.motion[v as usize], Motion::Along(_));
     let mut done = false;
     if (3..=MAX_CORNERS).contains(&s.ring.len()) && closed != slides {
-        work.refills.choose(
-            &work.mesh,
-            work.limits,
-            &s.ring,
-            closed,
-            pass.refills,
-            &mut s.chosen,
-        );
+        work.refills.choose(&work.mesh, work.limits, &s.ring, closed, pass.refills, &mut s.chosen);
         for &(cost, index) in &s.chosen {
-            if cost > pass.max_cost
-                || !work
-                    .refills
-                    .triangles(&work.mesh, &s.ring, closed, index, &mut s.new)
+            if cost > pass.max_cost || !work.refills.triangles(&work.mesh, &s.ring, closed, index, &mut s.new)
             {
                 continue;
             }
@@ -201,10 +115,7 @@ pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
         if ring > 1 {
             work.grow();
         }
-        let state = work.solve(Effort {
-            near: pass.near,
-            ..REMOVAL
-        });
+        let state = work.solve(Effort { near: pass.near, ..REMOVAL });
         if state.solved {
             return work.changes_hold();
         }

@@ -1,12 +1,12 @@
 //! Why a mesh cannot be optimised.
 
-use hexdel_geom::{DVec2, VertexId};
+use hexdel_geom::{Cancelled, DVec2, VertexId};
 use thiserror::Error;
 
 use crate::options::Optimized;
 
 /// What [`optimize`](crate::optimize) answers when it has no mesh to return.
-#[derive(Clone, Debug, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OptimizeError {
     /// There is not one kind for each vertex.
@@ -77,7 +77,10 @@ pub enum OptimizeError {
         /// Its coordinates.
         at: DVec2,
     },
-    /// The work ended, or was stopped, with angles outside the bounds.
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The work ended, or its budget did, with angles outside the bounds.
     #[error("{bad} of {} triangles are outside the bounds, the first with corners {corners:?}", best.mesh.triangles.len())]
     Unreached {
         /// How many triangles are outside.

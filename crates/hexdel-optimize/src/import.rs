@@ -15,17 +15,11 @@ const STRAIGHT: f64 = 1e-6;
 pub(crate) fn import(mesh: TriMesh, kinds: &[VertexKind]) -> Result<Soup, OptimizeError> {
     let n = mesh.vertices.len();
     if kinds.len() != n {
-        return Err(OptimizeError::KindCount {
-            vertices: n,
-            kinds: kinds.len(),
-        });
+        return Err(OptimizeError::KindCount { vertices: n, kinds: kinds.len() });
     }
     for (i, &at) in mesh.vertices.iter().enumerate() {
         if !at.is_finite() {
-            return Err(OptimizeError::NotFinite {
-                vertex: VertexId::new(i),
-                at,
-            });
+            return Err(OptimizeError::NotFinite { vertex: VertexId::new(i), at });
         }
     }
     let tris = corners(&mesh)?;
@@ -43,10 +37,7 @@ pub(crate) fn import(mesh: TriMesh, kinds: &[VertexKind]) -> Result<Soup, Optimi
 }
 
 /// The caller's mesh again, and the kinds of its vertices.
-pub(crate) fn export(
-    soup: Soup,
-    vertices: usize,
-) -> (TriMesh, Vec<VertexKind>, Vec<Option<VertexId>>) {
+pub(crate) fn export(soup: Soup, vertices: usize) -> (TriMesh, Vec<VertexKind>, Vec<Option<VertexId>>) {
     let mut map = vec![None; vertices];
     for (i, &o) in soup.origin.iter().enumerate() {
         if o != NONE {
@@ -62,19 +53,8 @@ pub(crate) fn export(
             Motion::Free => VertexKind::Free,
         })
         .collect();
-    let triangles = soup
-        .tris
-        .iter()
-        .map(|t| t.map(|v| VertexId::new(v as usize)))
-        .collect();
-    (
-        TriMesh {
-            vertices: soup.pos,
-            triangles,
-        },
-        kinds,
-        map,
-    )
+    let triangles = soup.tris.iter().map(|t| t.map(|v| VertexId::new(v as usize))).collect();
+    (TriMesh { vertices: soup.pos, triangles }, kinds, map)
 }
 
 fn motion(kind: &VertexKind) -> Motion {
@@ -90,17 +70,10 @@ fn corners(mesh: &TriMesh) -> Result<Vec<[u32; 3]>, OptimizeError> {
     let check = |(triangle, t): (usize, &[VertexId; 3])| {
         for k in 0..3 {
             if t[k].index() >= vertices {
-                return Err(OptimizeError::NoSuchVertex {
-                    triangle,
-                    corner: t[k].index(),
-                    vertices,
-                });
+                return Err(OptimizeError::NoSuchVertex { triangle, corner: t[k].index(), vertices });
             }
             if t[k] == t[(k + 1) % 3] {
-                return Err(OptimizeError::RepeatedCorner {
-                    triangle,
-                    vertex: t[k],
-                });
+                return Err(OptimizeError::RepeatedCorner { triangle, vertex: t[k] });
             }
         }
         Ok(t.map(|v| v.index() as u32))
@@ -148,17 +121,10 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
 /// The angle from `u` counter-clockwise to `w`, in (0, 2 pi].
 fn opening(u: DVec2, w: DVec2) -> f64 {
     let a = libm::atan2(u.perp_dot(w), u.dot(w));
-    if a <= 0.0 {
-        a + std::f64::consts::TAU
-    } else {
-        a
-    }
+    if a <= 0.0 { a + std::f64::consts::TAU } else { a }
 }
 
 fn slides(along: DVec2, first: DVec2, last: DVec2) -> bool {
     let straight = |side: DVec2| along.perp_dot(side).abs() <= STRAIGHT * side.length();
-    (along.length() - 1.0).abs() <= STRAIGHT
-        && straight(first)
-        && straight(last)
-        && first.dot(last) < 0.0
+    (along.length() - 1.0).abs() <= STRAIGHT && straight(first) && straight(last) && first.dot(last) < 0.0
 }

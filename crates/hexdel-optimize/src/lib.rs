@@ -9,6 +9,7 @@
 //! | module | what |
 //! |---|---|
 //! | `options`, `error` | what the caller says and gets |
+//! | `outline` | [`kinds_of`]: what vertices may do, from the outline |
 //! | `schedule` | [`optimize`]: rounds of work over all parts of the mesh |
 //! | `partition` | cuts the mesh into parts, the same for any number of threads |
 //! | `repair` | brings all angles inside |
@@ -33,6 +34,7 @@ mod flip;
 mod import;
 mod mesh;
 mod options;
+mod outline;
 mod partition;
 mod patch;
 mod random;
@@ -43,5 +45,6 @@ mod shake;
 mod work;
 
 pub use error::OptimizeError;
-pub use options::{Effort, Hook, Optimized, Options, Phase, Progress, Stats, VertexKind};
+pub use options::{Effort, Optimized, Options, Stats, VertexKind};
+pub use outline::kinds_of;
 pub use schedule::optimize;

@@ -27,15 +27,8 @@ pub(crate) struct Part {
 
 /// The triangles of each part, ascending.
 pub(crate) fn partition(soup: &Soup, round: usize) -> Vec<Vec<u32>> {
-    let centre = |t: u32| {
-        soup.tris[t as usize]
-            .iter()
-            .map(|v| soup.pos[*v as usize])
-            .sum::<DVec2>()
-    };
-    let mut items: Vec<(DVec2, u32)> = (0..soup.tris.len() as u32)
-        .map(|t| (centre(t), t))
-        .collect();
+    let centre = |t: u32| soup.tris[t as usize].iter().map(|v| soup.pos[*v as usize]).sum::<DVec2>();
+    let mut items: Vec<(DVec2, u32)> = (0..soup.tris.len() as u32).map(|t| (centre(t), t)).collect();
     let mut parts = Vec::new();
     cut(&mut items, CUTS[round % CUTS.len()], &mut parts);
     parts
@@ -49,17 +42,12 @@ fn cut(items: &mut [(DVec2, u32)], at: usize, parts: &mut Vec<Vec<u32>>) {
         parts.push(part);
         return;
     }
-    let (lo, hi) = items
-        .iter()
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), i| {
-            (l.min(i.0), h.max(i.0))
-        });
+    let (lo, hi) =
+        items.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), i| (l.min(i.0), h.max(i.0)));
     let wide = hi.x - lo.x >= hi.y - lo.y;
     let key = |p: DVec2| if wide { p.x } else { p.y };
     let middle = items.len() * at / 100;
-    items.select_nth_unstable_by(middle, |a, b| {
-        key(a.0).total_cmp(&key(b.0)).then(a.1.cmp(&b.1))
-    });
+    items.select_nth_unstable_by(middle, |a, b| key(a.0).total_cmp(&key(b.0)).then(a.1.cmp(&b.1)));
     let (left, right) = items.split_at_mut(middle);
     cut(left, at, parts);
     cut(right, at, parts);
@@ -92,31 +80,17 @@ impl Seams {
 
 /// Cuts one part out of the soup.
 pub(crate) fn extract(soup: &Soup, seams: &Seams, triangles: &[u32]) -> Part {
-    let mut global: Vec<u32> = triangles
-        .iter()
-        .flat_map(|&t| soup.tris[t as usize])
-        .collect();
+    let mut global: Vec<u32> = triangles.iter().flat_map(|&t| soup.tris[t as usize]).collect();
     global.sort_unstable();
     global.dedup();
-    let local = |v: u32| {
-        global
-            .binary_search(&v)
-            .expect("every corner was collected") as u32
-    };
-    let tris: Vec<[u32; 3]> = triangles
-        .iter()
-        .map(|&t| soup.tris[t as usize].map(local))
-        .collect();
+    let local = |v: u32| global.binary_search(&v).expect("every corner was collected") as u32;
+    let tris: Vec<[u32; 3]> = triangles.iter().map(|&t| soup.tris[t as usize].map(local)).collect();
     let mut outside: Vec<u16> = global.iter().map(|&v| seams.degree[v as usize]).collect();
     for &v in tris.iter().flatten() {
         outside[v as usize] -= 1;
     }
     let motion = |v: u32| {
-        if seams.shared[v as usize] {
-            Motion::Frozen
-        } else {
-            soup.motion[v as usize]
-        }
+        if seams.shared[v as usize] { Motion::Frozen } else { soup.motion[v as usize] }
     };
     let vertices = Vertices {
         pos: global.iter().map(|&v| soup.pos[v as usize]).collect(),
@@ -126,11 +100,7 @@ pub(crate) fn extract(soup: &Soup, seams: &Seams, triangles: &[u32]) -> Part {
     };
     let failed = global.iter().map(|&v| soup.failed[v as usize]).collect();
     let mesh = Mesh::build(vertices, &tris).expect("a part of a manifold is one but for its seam");
-    Part {
-        mesh,
-        global,
-        failed,
-    }
+    Part { mesh, global, failed }
 }
 
 /// Puts the parts together again: the vertices that are left keep their order,
@@ -155,13 +125,7 @@ pub(crate) fn merge(soup: &Soup, parts: &[Part]) -> Soup {
     let mut renamed = vec![NONE; soup.pos.len()];
     for g in (0..soup.pos.len()).filter(|&g| !dead[g]) {
         renamed[g] = out.pos.len() as u32;
-        out.push(
-            pos[g],
-            soup.motion[g],
-            soup.sector[g],
-            soup.origin[g],
-            failed[g],
-        );
+        out.push(pos[g], soup.motion[g], soup.sector[g], soup.origin[g], failed[g]);
     }
     for part in parts {
         let old = part.global.len();
@@ -169,20 +133,10 @@ pub(crate) fn merge(soup: &Soup, parts: &[Part]) -> Soup {
         for i in old..part.mesh.pos.len() {
             names.push(out.pos.len() as u32);
             if part.mesh.alive(i as u32) {
-                out.push(
-                    part.mesh.pos[i],
-                    part.mesh.motion[i],
-                    part.mesh.sector[i],
-                    NONE,
-                    part.failed[i],
-                );
+                out.push(part.mesh.pos[i], part.mesh.motion[i], part.mesh.sector[i], NONE, part.failed[i]);
             }
         }
-        out.tris.extend(
-            part.mesh
-                .live()
-                .map(|t| part.mesh.tri[t as usize].v.map(|v| names[v as usize])),
-        );
+        out.tris.extend(part.mesh.live().map(|t| part.mesh.tri[t as usize].v.map(|v| names[v as usize])));
     }
     out
 }

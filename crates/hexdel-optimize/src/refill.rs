@@ -31,9 +31,7 @@ pub(crate) struct Refills {
 
 impl Refills {
     pub(crate) fn new() -> Self {
-        let of = (0..=MAX_CORNERS)
-            .map(|n| if n < 3 { Vec::new() } else { fans(0, n - 1) })
-            .collect();
+        let of = (0..=MAX_CORNERS).map(|n| if n < 3 { Vec::new() } else { fans(0, n - 1) }).collect();
         Self { of }
     }
 
@@ -127,11 +125,7 @@ fn fans(a: usize, b: usize) -> Vec<Vec<[u8; 3]>> {
 }
 
 #[allow(clippy::needless_range_loop, reason = "the three indices are one key")]
-fn shapes(
-    mesh: &Mesh,
-    limits: &Limits,
-    ring: &[u32],
-) -> [[[f64; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS] {
+fn shapes(mesh: &Mesh, limits: &Limits, ring: &[u32]) -> [[[f64; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS] {
     let mut shape = [[[0.0; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS];
     let p = |i: usize| mesh.pos[ring[i] as usize];
     for i in 0..ring.len() {
@@ -150,9 +144,5 @@ pub(crate) fn degree_cost(limits: &Limits, sector: f64, degree: usize) -> f64 {
     let mean = sector / degree as f64;
     // A sector's angle carries the rounding of an arc cosine.
     let room = (mean - limits.min_rad).min(limits.max_rad - mean) + 1e-9;
-    if room < 0.0 {
-        IMPOSSIBLE
-    } else {
-        1.0 / (room.to_degrees() + 1.0)
-    }
+    if room < 0.0 { IMPOSSIBLE } else { 1.0 / (room.to_degrees() + 1.0) }
 }

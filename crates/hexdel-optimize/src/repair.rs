@@ -18,11 +18,7 @@ pub(crate) enum Step {
     Move { rings: usize },
     /// Tries so many changes of topology at the triangle, or around it if
     /// `wide`, and moves up to so many rings.
-    Search {
-        changes: usize,
-        rings: usize,
-        wide: bool,
-    },
+    Search { changes: usize, rings: usize, wide: bool },
     /// Removes vertices of three rings around the triangle; one that has no
     /// corner that can move is split.
     Thin,
@@ -35,36 +31,17 @@ pub(crate) fn step(round: usize) -> Step {
     match round {
         0 => Step::Move { rings: 2 },
         1 | 2 => Step::Move { rings: 3 },
-        3 => Step::Search {
-            changes: 10,
-            rings: 2,
-            wide: false,
-        },
-        4 => Step::Search {
-            changes: 20,
-            rings: 3,
-            wide: false,
-        },
+        3 => Step::Search { changes: 10, rings: 2, wide: false },
+        4 => Step::Search { changes: 20, rings: 3, wide: false },
         r if r % 4 == 1 => Step::Thin,
         r if r % 8 == 3 && r > 8 => Step::Refine,
-        r if r % 4 == 2 => Step::Search {
-            changes: 30,
-            rings: 3,
-            wide: r > 8,
-        },
-        _ => Step::Search {
-            changes: 60,
-            rings: 4,
-            wide: true,
-        },
+        r if r % 4 == 2 => Step::Search { changes: 30, rings: 3, wide: r > 8 },
+        _ => Step::Search { changes: 60, rings: 4, wide: true },
     }
 }
 
 /// Rounds that come before removals: motion alone.
 pub(crate) const FIRST_ROUNDS: usize = 3;
-
-/// Rounds before removals when no others are wanted.
-pub(crate) const FAST_ROUNDS: usize = 11;
 
 /// Rounds after which a mesh is given up.
 pub(crate) const ROUNDS: usize = 31;
@@ -76,40 +53,11 @@ const KEEP_BELOW: f64 = 0.9;
 /// corners some degrees outside, which motion and search can settle.
 const TOLERATED: f64 = 0.1;
 
-const MOVE: Effort = Effort {
-    sweeps: Sweeps {
-        most: 40,
-        stall: 0.7,
-    },
-    turns: 2,
-    near: 0.3,
-    steps: 4,
-};
-const SCREEN: Effort = Effort {
-    sweeps: Sweeps {
-        most: 16,
-        stall: 0.7,
-    },
-    turns: 2,
-    near: 1.0,
-    steps: 2,
-};
-const FINISH: Effort = Effort {
-    sweeps: Sweeps {
-        most: 40,
-        stall: 0.8,
-    },
-    turns: 3,
-    near: 0.3,
-    steps: 8,
-};
+const MOVE: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.7 }, turns: 2, near: 0.3, steps: 4 };
+const SCREEN: Effort = Effort { sweeps: Sweeps { most: 16, stall: 0.7 }, turns: 2, near: 1.0, steps: 2 };
+const FINISH: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.8 }, turns: 3, near: 0.3, steps: 8 };
 
-const THIN: Pass = Pass {
-    rings: 3,
-    refills: 2,
-    max_cost: 0.8,
-    near: 0.05,
-};
+const THIN: Pass = Pass { rings: 3, refills: 2, max_cost: 0.8, near: 0.05 };
 
 /// Changes that are worked out after screening.
 const FINALISTS: usize = 4;
@@ -124,11 +72,7 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
             Step::Move { rings } => {
                 move_rings(work, t, rings);
             }
-            Step::Search {
-                changes,
-                rings,
-                wide,
-            } => {
+            Step::Search { changes, rings, wide } => {
                 if !move_rings(work, t, rings) && work.is_bad(t) {
                     search(work, t, changes, rings, wide);
                 }
@@ -156,11 +100,7 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
         let before = work.patch.state(work.limits).energy;
         let last = r == rings;
         work.stats.repairs[0] += 1;
-        let state = work.solve(if last {
-            MOVE
-        } else {
-            Effort { near: 0.0, ..MOVE }
-        });
+        let state = work.solve(if last { MOVE } else { Effort { near: 0.0, ..MOVE } });
         if state.solved && work.changes_hold() {
             work.stats.repairs[1] += 1;
             work.commit();
@@ -182,13 +122,8 @@ fn search(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let mut changes = Vec::new();
     load_rings(work, &corners, if wide { 2 } else { 1 });
     let around = work.patch.vertices().to_vec();
-    Finder {
-        mesh: &work.mesh,
-        limits: work.limits,
-        refills: work.refills,
-        out: &mut changes,
-    }
-    .find(t, &around);
+    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }
+        .find(t, &around);
     let mut ranked: Vec<(f64, Action)> = Vec::new();
     for change in changes.into_iter().take(most) {
         let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else {
@@ -270,12 +205,8 @@ fn attempt(
 fn thin(work: &mut Work, t: u32) {
     let corners = work.mesh.tri[t as usize].v;
     load_rings(work, &corners, 3);
-    let mut near: Vec<(f64, u32)> = work
-        .patch
-        .movable()
-        .iter()
-        .map(|&v| (work.mesh.shortest_edge(v), v))
-        .collect();
+    let mut near: Vec<(f64, u32)> =
+        work.patch.movable().iter().map(|&v| (work.mesh.shortest_edge(v), v)).collect();
     near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for (_, v) in near {
         if work.mesh.alive(v) && try_remove(work, v, THIN) && !work.is_bad(t) {
@@ -286,10 +217,7 @@ fn thin(work: &mut Work, t: u32) {
 
 /// Whether `t` joins three vertices that never move.
 fn has_no_room(mesh: &Mesh, t: u32) -> bool {
-    mesh.tri[t as usize]
-        .v
-        .iter()
-        .all(|v| mesh.motion[*v as usize] == Motion::Fixed)
+    mesh.tri[t as usize].v.iter().all(|v| mesh.motion[*v as usize] == Motion::Fixed)
 }
 
 /// Splits the three sides of `t`; kept if the energy stays below `below` or

@@ -19,18 +19,8 @@ const SHARE: f64 = 0.5;
 /// Refills and exchanges that cost more are not tried.
 const MAX_COST: f64 = 1.0;
 
-const SHAKE: Pass = Pass {
-    rings: 3,
-    refills: 1,
-    max_cost: 0.6,
-    near: 0.0,
-};
-const REMOVE: Pass = Pass {
-    rings: 3,
-    refills: 1,
-    max_cost: 0.55,
-    near: 0.01,
-};
+const SHAKE: Pass = Pass { rings: 3, refills: 1, max_cost: 0.6, near: 0.0 };
+const REMOVE: Pass = Pass { rings: 3, refills: 1, max_cost: 0.55, near: 0.01 };
 
 /// One round.
 pub(crate) fn shake(work: &mut Work) {
@@ -41,11 +31,7 @@ pub(crate) fn shake(work: &mut Work) {
             continue;
         }
         work.stats.shakes[0] += 1;
-        let kept = if work.random.below(2) == 0 {
-            exchange(work, v)
-        } else {
-            transplant(work, v)
-        };
+        let kept = if work.random.below(2) == 0 { exchange(work, v) } else { transplant(work, v) };
         if kept && work.changes_hold() {
             work.stats.shakes[1] += 1;
             work.commit();
@@ -81,17 +67,13 @@ fn transplant(work: &mut Work, v: u32) -> bool {
         return false;
     }
     let mut chosen = Vec::new();
-    work.refills
-        .choose(&work.mesh, work.limits, &ring, true, 4, &mut chosen);
+    work.refills.choose(&work.mesh, work.limits, &ring, true, 4, &mut chosen);
     chosen.retain(|c| c.0 < MAX_COST);
     if chosen.is_empty() {
         return false;
     }
     let (_, refill) = chosen[work.random.below(chosen.len())];
-    if !work
-        .refills
-        .triangles(&work.mesh, &ring, true, refill, &mut new)
-    {
+    if !work.refills.triangles(&work.mesh, &ring, true, refill, &mut new) {
         return false;
     }
     work.mesh.replace(&tris, &new, &mut Vec::new());
@@ -113,13 +95,8 @@ fn insertion_near(work: &mut Work, v: u32) -> Option<Action> {
     work.mesh.ring(v, &mut tris, &mut ring);
     let t = tris[work.random.below(tris.len())];
     let mut changes: Vec<Change> = Vec::new();
-    Finder {
-        mesh: &work.mesh,
-        limits: work.limits,
-        refills: work.refills,
-        out: &mut changes,
-    }
-    .find_insertions(t);
+    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }
+        .find_insertions(t);
     let best = changes.len().min(3);
     (best > 0).then(|| changes[work.random.below(best)].action)
 }

@@ -89,10 +89,7 @@ impl<'a> Work<'a> {
     /// flips, or the effort is spent. Motion comes first: flipping first would
     /// undo the choice of degrees that made the patch promising.
     pub(crate) fn solve(&mut self, effort: Effort) -> State {
-        let mut state = State {
-            energy: f64::INFINITY,
-            solved: false,
-        };
+        let mut state = State { energy: f64::INFINITY, solved: false };
         for turn in 0..effort.turns {
             if turn > 0 {
                 self.patch.store(&mut self.mesh);
@@ -123,16 +120,9 @@ impl<'a> Work<'a> {
     }
 
     fn patch_is_delaunay(&self) -> bool {
-        let wrong = |t: u32, k: usize| {
-            self.mesh
-                .diamond(t, k)
-                .is_some_and(|(_, d)| wants_flip(&self.mesh, d))
-        };
-        !self
-            .patch
-            .triangles()
-            .iter()
-            .any(|&t| (0..3).any(|k| wrong(t, k)))
+        let wrong =
+            |t: u32, k: usize| self.mesh.diamond(t, k).is_some_and(|(_, d)| wants_flip(&self.mesh, d));
+        !self.patch.triangles().iter().any(|&t| (0..3).any(|k| wrong(t, k)))
     }
 
     /// Makes the changes final.

@@ -35,9 +35,7 @@ pub(crate) fn two_close() -> Vec<DVec2> {
 }
 
 pub(crate) fn grid(n: usize) -> Vec<DVec2> {
-    (0..n * n)
-        .map(|i| DVec2::new((i % n) as f64, (i / n) as f64))
-        .collect()
+    (0..n * n).map(|i| DVec2::new((i % n) as f64, (i / n) as f64)).collect()
 }
 
 pub(crate) fn circle(n: usize) -> Vec<DVec2> {

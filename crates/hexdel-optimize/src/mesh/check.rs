@@ -41,10 +41,7 @@ impl Mesh {
             let mut fan = 0;
             self.around(v, |_, _| fan += 1);
             if self.motion[v as usize] != Motion::Frozen && fan != at[v as usize] {
-                return Err(format!(
-                    "vertex {v} has {} triangles, {fan} in one fan",
-                    at[v as usize]
-                ));
+                return Err(format!("vertex {v} has {} triangles, {fan} in one fan", at[v as usize]));
             }
         }
         Ok(())
@@ -54,7 +51,6 @@ impl Mesh {
         let tri = self.tri[t as usize];
         let other = self.tri[tri.n[k] as usize];
         let (from, to) = (tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]);
-        (0..3)
-            .any(|j| other.v[(j + 1) % 3] == to && other.v[(j + 2) % 3] == from && other.n[j] == t)
+        (0..3).any(|j| other.v[(j + 1) % 3] == to && other.v[(j + 2) % 3] == from && other.n[j] == t)
     }
 }

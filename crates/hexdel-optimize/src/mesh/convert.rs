@@ -43,12 +43,7 @@ impl Mesh {
     ///
     /// Linear for vertices of bounded degree.
     pub(crate) fn build(vertices: Vertices, tris: &[[u32; 3]]) -> Result<Self, BadSide> {
-        let Vertices {
-            pos,
-            motion,
-            sector,
-            outside: mut degree,
-        } = vertices;
+        let Vertices { pos, motion, sector, outside: mut degree } = vertices;
         let neighbours = neighbours(pos.len(), tris)?;
         let mut anchor = vec![NONE; pos.len()];
         for (t, v) in tris.iter().enumerate() {
@@ -57,20 +52,8 @@ impl Mesh {
                 degree[v as usize] += 1;
             }
         }
-        let tri = tris
-            .iter()
-            .zip(neighbours)
-            .map(|(&v, n)| Tri { v, n })
-            .collect();
-        Ok(Self {
-            pos,
-            motion,
-            sector,
-            tri,
-            anchor,
-            degree,
-            journal: Vec::new(),
-        })
+        let tri = tris.iter().zip(neighbours).map(|(&v, n)| Tri { v, n }).collect();
+        Ok(Self { pos, motion, sector, tri, anchor, degree, journal: Vec::new() })
     }
 }
 

@@ -27,10 +27,7 @@ pub(crate) struct Tri {
 }
 
 impl Tri {
-    pub(crate) const DEAD: Self = Self {
-        v: [NONE; 3],
-        n: [NONE; 3],
-    };
+    pub(crate) const DEAD: Self = Self { v: [NONE; 3], n: [NONE; 3] };
 
     pub(crate) fn alive(&self) -> bool {
         self.v[0] != NONE
@@ -153,11 +150,7 @@ impl Mesh {
     /// Whether an edge joins `a` and `b`, or may join them in another part.
     pub(crate) fn adjacent(&self, a: u32, b: u32) -> bool {
         // Only one fan of a frozen vertex can be walked; ask the other one.
-        let (a, b) = if self.motion[a as usize] == Motion::Frozen {
-            (b, a)
-        } else {
-            (a, b)
-        };
+        let (a, b) = if self.motion[a as usize] == Motion::Frozen { (b, a) } else { (a, b) };
         if self.motion[a as usize] == Motion::Frozen {
             return true;
         }
@@ -169,11 +162,7 @@ impl Mesh {
     /// The triangle on the left of the side from `a` to `b`, or on its right
     /// where it has none on the left, and the corner opposite.
     pub(crate) fn side(&self, a: u32, b: u32) -> Option<(u32, usize)> {
-        let (a, b) = if self.motion[a as usize] == Motion::Frozen {
-            (b, a)
-        } else {
-            (a, b)
-        };
+        let (a, b) = if self.motion[a as usize] == Motion::Frozen { (b, a) } else { (a, b) };
         let mut found = None;
         self.around(a, |t, k| {
             let c = self.tri[t as usize].v;

@@ -29,11 +29,7 @@ impl Mesh {
         }
         let base = made.len();
         for i in 0..new.len() {
-            let t = if i < old.len() {
-                old[i]
-            } else {
-                self.add_tri()
-            };
+            let t = if i < old.len() { old[i] } else { self.add_tri() };
             made.push(t);
         }
         for (i, &v) in new.iter().enumerate() {
@@ -64,11 +60,7 @@ impl Mesh {
             let tri = self.tri[t as usize];
             for k in 0..3 {
                 if tri.n[k] == NONE || !old.contains(&tri.n[k]) {
-                    sides.push(Side {
-                        from: tri.v[(k + 1) % 3],
-                        to: tri.v[(k + 2) % 3],
-                        beyond: tri.n[k],
-                    });
+                    sides.push(Side { from: tri.v[(k + 1) % 3], to: tri.v[(k + 2) % 3], beyond: tri.n[k] });
                 }
             }
         }
@@ -103,10 +95,7 @@ impl Mesh {
             return None;
         }
         let (from, to) = (tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]);
-        let far = self.tri[u as usize]
-            .v
-            .into_iter()
-            .find(|&v| v != from && v != to)?;
+        let far = self.tri[u as usize].v.into_iter().find(|&v| v != from && v != to)?;
         Some((u, [tri.v[k], from, to, far]))
     }
 
@@ -130,27 +119,10 @@ impl Mesh {
         let b = self.tri[u as usize];
         let j = b.corner(far);
         // Beyond from-far, far-to, to-apex, apex-from.
-        let beyond = [
-            b.n[b.corner(to)],
-            b.n[b.corner(from)],
-            a.n[(k + 1) % 3],
-            a.n[(k + 2) % 3],
-        ];
+        let beyond = [b.n[b.corner(to)], b.n[b.corner(from)], a.n[(k + 1) % 3], a.n[(k + 2) % 3]];
         debug_assert_eq!(b.n[j], t);
-        self.set_tri(
-            t,
-            Tri {
-                v: [apex, from, far],
-                n: [beyond[0], u, beyond[3]],
-            },
-        );
-        self.set_tri(
-            u,
-            Tri {
-                v: [far, to, apex],
-                n: [beyond[2], t, beyond[1]],
-            },
-        );
+        self.set_tri(t, Tri { v: [apex, from, far], n: [beyond[0], u, beyond[3]] });
+        self.set_tri(u, Tri { v: [far, to, apex], n: [beyond[2], t, beyond[1]] });
         self.relink(beyond[0], u, t);
         self.relink(beyond[2], t, u);
         self.set_anchor(from, t);
@@ -183,23 +155,12 @@ impl Mesh {
         let mid = 0.5 * (p + q);
         if let Some((u, [_, _, _, far])) = self.diamond(t, k) {
             let m = self.add_vertex(mid, Motion::Free, std::f64::consts::TAU);
-            self.replace(
-                &[t, u],
-                &[[apex, from, m], [apex, m, to], [far, m, from], [far, to, m]],
-                made,
-            );
+            self.replace(&[t, u], &[[apex, from, m], [apex, m, to], [far, m, from], [far, to, m]], made);
             Some(m)
-        } else if [from, to]
-            .iter()
-            .all(|v| self.motion[*v as usize] == Motion::Frozen)
-        {
+        } else if [from, to].iter().all(|v| self.motion[*v as usize] == Motion::Frozen) {
             None
         } else {
-            let m = self.add_vertex(
-                mid,
-                Motion::Along((q - p).normalize()),
-                std::f64::consts::PI,
-            );
+            let m = self.add_vertex(mid, Motion::Along((q - p).normalize()), std::f64::consts::PI);
             self.replace(&[t], &[[apex, from, m], [apex, m, to]], made);
             Some(m)
         }

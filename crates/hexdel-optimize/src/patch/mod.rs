@@ -143,8 +143,7 @@ impl Patch {
         for (i, w) in self.weight.iter_mut().enumerate() {
             // Coincident vertices still need a positive unit to part.
             let square = w.max(f64::MIN_POSITIVE);
-            self.unit
-                .push(if i < self.movable { square.sqrt() } else { 0.0 });
+            self.unit.push(if i < self.movable { square.sqrt() } else { 0.0 });
             *w = if i < self.movable { square } else { 0.0 };
         }
     }
@@ -205,10 +204,7 @@ fn evaluate(limits: &Limits, tris: &[[u32; 3]], pos: &[DVec2], active: &mut Vec<
             let residual = limits.residual(&m, k);
             if residual != 0.0 {
                 energy += residual * residual;
-                active.push(Active {
-                    v: [t[k], t[(k + 1) % 3], t[(k + 2) % 3]],
-                    residual,
-                });
+                active.push(Active { v: [t[k], t[(k + 1) % 3], t[(k + 2) % 3]], residual });
             }
         }
     }
@@ -230,11 +226,7 @@ mod tests {
 
     #[test]
     fn gradient_agrees_with_differences() {
-        let p = [
-            DVec2::new(0.1, 0.2),
-            DVec2::new(1.3, -0.1),
-            DVec2::new(0.4, 1.1),
-        ];
+        let p = [DVec2::new(0.1, 0.2), DVec2::new(1.3, -0.1), DVec2::new(0.4, 1.1)];
         let angle = |p: [DVec2; 3]| {
             let (u, w) = (p[1] - p[0], p[2] - p[0]);
             u.perp_dot(w).atan2(u.dot(w))

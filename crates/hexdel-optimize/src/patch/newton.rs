@@ -89,28 +89,15 @@ impl Patch {
 
     fn try_step(&mut self) {
         let newton = &mut self.newton;
-        let longest = newton
-            .x
-            .chunks_exact(2)
-            .map(|d| d[0] * d[0] + d[1] * d[1])
-            .fold(0.0, f64::max)
-            .sqrt();
-        let scale = if longest > STEP_LIMIT {
-            STEP_LIMIT / longest
-        } else {
-            1.0
-        };
+        let longest = newton.x.chunks_exact(2).map(|d| d[0] * d[0] + d[1] * d[1]).fold(0.0, f64::max).sqrt();
+        let scale = if longest > STEP_LIMIT { STEP_LIMIT / longest } else { 1.0 };
         newton.pos.clear();
         newton.pos.extend_from_slice(&self.pos);
         for (i, d) in newton.x.chunks_exact(2).enumerate() {
             let by = DVec2::new(d[0], d[1]) * (scale * self.unit[i]);
             let along = self.along[i];
             // A sliding vertex stays on its line to the last bit it can.
-            newton.pos[i] += if along == DVec2::ZERO {
-                by
-            } else {
-                along * along.dot(by)
-            };
+            newton.pos[i] += if along == DVec2::ZERO { by } else { along * along.dot(by) };
         }
     }
 
@@ -133,8 +120,7 @@ impl Patch {
             let v = c.v.map(|v| v as usize);
             let [pa, pb, pc] = v.map(|v| self.pos[v]);
             let g = angle_gradient(pa, pb, pc);
-            let g: [DVec2; 3] =
-                std::array::from_fn(|i| scaled(g[i], self.along[v[i]], self.unit[v[i]]));
+            let g: [DVec2; 3] = std::array::from_fn(|i| scaled(g[i], self.along[v[i]], self.unit[v[i]]));
             for i in (0..3).filter(|&i| v[i] < self.movable) {
                 newton.rhs[2 * v[i]] -= c.residual * g[i].x;
                 newton.rhs[2 * v[i] + 1] -= c.residual * g[i].y;
@@ -148,9 +134,5 @@ impl Patch {
 
 #[inline]
 fn scaled(g: DVec2, along: DVec2, unit: f64) -> DVec2 {
-    if along == DVec2::ZERO {
-        g * unit
-    } else {
-        along * (along.dot(g) * unit)
-    }
+    if along == DVec2::ZERO { g * unit } else { along * (along.dot(g) * unit) }
 }

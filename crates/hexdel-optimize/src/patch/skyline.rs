@@ -95,12 +95,7 @@ impl Skyline {
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut lanes = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
-    let tail: f64 = a4
-        .remainder()
-        .iter()
-        .zip(b4.remainder())
-        .map(|(x, y)| x * y)
-        .sum();
+    let tail: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
     for (x, y) in a4.zip(b4) {
         for k in 0..4 {
             lanes[k] += x[k] * y[k];
@@ -119,8 +114,7 @@ mod tests {
         let first: Vec<u32> = (0..n as u32).map(|i| i.saturating_sub(2)).collect();
         let mut m = Skyline::default();
         m.reset(&first);
-        let g =
-            |i: usize, s: f64| DVec2::new((i as f64 * 1.3 + s).sin(), (i as f64 * 0.7 - s).cos());
+        let g = |i: usize, s: f64| DVec2::new((i as f64 * 1.3 + s).sin(), (i as f64 * 0.7 - s).cos());
         let mut full = vec![vec![0.0; 2 * n]; 2 * n];
         for i in 2..n {
             let vs = [i - 2, i - 1, i];
