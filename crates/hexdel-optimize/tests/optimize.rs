@@ -66,8 +66,8 @@ fn check_mesh(before: &Start, after: &Optimized) {
 }
 
 fn check(before: &Start, bounds: AngleBounds, effort: Effort) -> Optimized {
-    let result =
-        optimize(before.mesh.clone(), &before.kinds, &Options::new(bounds, effort)).expect("all angles hold");
+    let result = optimize(before.mesh.clone(), &before.kinds, &Options::new(bounds, effort), &Unwatched)
+        .expect("all angles hold");
     check_mesh(before, &result);
     let (min, max) = angles(&result.mesh);
     assert!(min >= bounds.min_deg() - 1e-9 && max <= bounds.max_deg() + 1e-9, "{min} {max}");
