@@ -49,7 +49,10 @@ pub(crate) enum Failure {
 impl Failure {
     fn code(&self) -> u8 {
         match self {
-            Self::Mesh { source: hexdel::Error::NotCertified { .. }, .. } => 1,
+            Self::Mesh {
+                source: hexdel::Error::NotCertified { .. } | hexdel::Error::Unreached { .. },
+                ..
+            } => 1,
             _ => 2,
         }
     }

@@ -5,10 +5,12 @@ use crate::input::read_points;
 use crate::outputs::{Content, Outputs};
 use crate::progress::Progress;
 use clap::ValueEnum;
-use hexdel::{Mesher, Method, Triangulation};
+use hexdel::geom::BoundsError;
+use hexdel::{AngleBounds, Effort, Mesher, Method, Triangulation};
 use hexdel_io::{MeshView, Overlay, Picture, write_mesh};
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Mesh points: every angle between 43.9 and 90 degrees, Delaunay, certified
 #[derive(clap::Args)]
@@ -19,16 +21,30 @@ use std::path::PathBuf;
     All files are written or none; missing folders are made.\n\n\
     Examples:\n  \
     hexdel mesh cities.csv -o cities.ele -o cities.svg --grid\n  \
-    hexdel mesh cities.csv -o cities.vtu --method simple --report cities.json")]
+    hexdel mesh cities.csv -o cities.vtu --method simple --report cities.json\n  \
+    hexdel mesh cities.csv -o cities.ele --method compact --min-angle 30")]
 pub(crate) struct Args {
     /// File of points
     input: PathBuf,
     /// File to write; may be given several times
     #[arg(short, long, value_name = "FILE", required_unless_present = "report")]
     output: Vec<PathBuf>,
-    /// 43.9 to 90 degrees, or 30 to 120 with a quarter of the triangles
+    /// 43.9 to 90 degrees, 30 to 120 with a quarter of the triangles, or
+    /// optimised for few triangles
     #[arg(long, value_enum, default_value_t = MethodName::Templates)]
     method: MethodName,
+    /// How hard the compact method tries
+    #[arg(long, value_enum, default_value_t = EffortName::Standard)]
+    effort: EffortName,
+    /// Time the compact method may take for optimisation [default: as it takes]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    budget: Option<Duration>,
+    /// Smallest angle allowed, in degrees [default: the method's]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    min_angle: Option<f64>,
+    /// Largest angle allowed, in degrees [default: the method's]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    max_angle: Option<f64>,
     /// Circumradius of the hexagon to mesh [default: the smallest possible]
     #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
@@ -53,6 +69,19 @@ pub(crate) struct Args {
 enum MethodName {
     Templates,
     Simple,
+    Compact,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum EffortName {
+    Fast,
+    Standard,
+    Best,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|s| Duration::try_from_secs_f64(s).ok());
+    seconds.ok_or_else(|| "expected a number of seconds".to_owned())
 }
 
 fn radius(text: &str) -> Result<f64, String> {
@@ -66,8 +95,9 @@ fn radius(text: &str) -> Result<f64, String> {
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
     let points = read_points(&args.input)?;
+    let mesher = args.mesher()?;
     let progress = Progress::new(args.quiet);
-    let made = args.mesher().triangulate_watched(&points, &progress);
+    let made = mesher.triangulate_watched(&points, &progress);
     progress.finish();
     let made = made.map_err(|source| Failure::Mesh { file: args.input.display().to_string(), source })?;
 
@@ -93,19 +123,34 @@ fn outputs(args: &Args) -> Result<Outputs, Failure> {
 }
 
 impl Args {
-    fn mesher(&self) -> Mesher {
+    fn mesher(&self) -> Result<Mesher, BoundsError> {
         let method = match self.method {
             MethodName::Templates => Method::Templates,
             MethodName::Simple => Method::Simple,
+            MethodName::Compact => Method::Compact,
         };
-        let mut mesher = Mesher::new().method(method).coarsening(!self.no_coarsening);
+        let effort = match self.effort {
+            EffortName::Fast => Effort::Fast,
+            EffortName::Standard => Effort::Standard,
+            EffortName::Best => Effort::Best,
+        };
+        let mut mesher = Mesher::new().method(method).effort(effort).coarsening(!self.no_coarsening);
+        if self.min_angle.is_some() || self.max_angle.is_some() {
+            let kept = method.bounds();
+            let min = self.min_angle.unwrap_or(kept.min_deg());
+            let max = self.max_angle.unwrap_or(kept.max_deg());
+            mesher = mesher.bounds(AngleBounds::new(min, max)?);
+        }
+        if let Some(budget) = self.budget {
+            mesher = mesher.budget(budget);
+        }
         if let Some(radius) = self.domain_radius {
             mesher = mesher.domain_radius(radius);
         }
         if let Some(threads) = self.threads {
             mesher = mesher.threads(usize::from(threads));
         }
-        mesher
+        Ok(mesher)
     }
 }
 

@@ -37,6 +37,8 @@ impl Monitor for Progress {
             // How much refinement there will be is known when it is over.
             Phase::Refine => ("refining", "{spinner} {msg}  {pos} hexagons looked at  {elapsed}"),
             Phase::Extract => ("meshing", "{spinner} {msg}  [{bar:30}] {percent}%  {elapsed}"),
+            // Optimisation mostly ends before the most rounds it may take.
+            Phase::Optimize => ("optimising", "{spinner} {msg}  round {pos}  {elapsed}"),
             Phase::Certify => ("certifying", "{spinner} {msg}  [{bar:30}] {percent}%  {elapsed}"),
             _ => ("working", "{spinner} {msg}  {pos}  {elapsed}"),
         };

@@ -2,6 +2,7 @@
 
 use hexdel_classify::DualError;
 use hexdel_geom::{AngleBounds, Cancelled, Certificate, DVec2, DelaunayError, PointsError, TriMesh};
+use hexdel_optimize::OptimizeError;
 use hexdel_refine::RefineError;
 use thiserror::Error;
 
@@ -95,6 +96,24 @@ pub enum Error {
     /// The monitor asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// Optimisation ended, or its time did, before every angle was inside the
+    /// bounds asked for. It always gets there where the bounds are no tighter
+    /// than those of the templates; the mesh is the best one found.
+    #[error(
+        "optimisation did not reach angles between {} and {} degrees: {} of {} triangles are out of bounds",
+        certificate.bounds.min_deg(), certificate.bounds.max_deg(),
+        certificate.out_of_bounds, certificate.triangles
+    )]
+    Unreached {
+        /// The mesh.
+        mesh: Box<TriMesh>,
+        /// Its certificate for the bounds asked for, which does not hold.
+        certificate: Box<Certificate>,
+    },
+    /// The mesh made to start optimisation with is none that it takes. This is
+    /// a defect of the library.
+    #[error(transparent)]
+    Optimize(OptimizeError),
     /// The finished mesh does not keep what was promised. This is a defect of
     /// the library; the mesh is handed over with what is wrong with it.
     #[error(

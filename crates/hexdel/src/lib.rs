@@ -27,6 +27,7 @@
 //! | [`grid`] | the adaptive hexagon grid |
 //! | [`classify`] | classes of hexagons, templates, the dual mesh |
 //! | [`refine`] | the rules engine |
+//! | [`optimize`] | local optimisation to angle bounds |
 //! | [`io`] | formats and pictures |
 
 /// The examples of the README, so that they stay true.
@@ -34,6 +35,7 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+mod compact;
 pub mod error;
 pub mod generate;
 pub mod mesher;
@@ -45,11 +47,13 @@ pub use hexdel_classify as classify;
 pub use hexdel_geom as geom;
 pub use hexdel_grid as grid;
 pub use hexdel_io as io;
+pub use hexdel_optimize as optimize;
 pub use hexdel_refine as refine;
 
 pub use error::Error;
 pub use hexdel_geom::{
     AngleBounds, Certificate, DVec2, Monitor, Phase, TriMesh, TriangleId, Unwatched, VertexId,
 };
+pub use hexdel_optimize::Effort;
 pub use mesher::{Mesher, Method, triangulate};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

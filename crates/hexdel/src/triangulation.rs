@@ -43,7 +43,7 @@ pub struct Patch {
 pub struct Seconds {
     /// Checking the input and refining the grid.
     pub refine: f64,
-    /// Making vertices and triangles.
+    /// Making vertices and triangles, and optimising them.
     pub extract: f64,
     /// The exact Delaunay property, and the certificate.
     pub certify: f64,
@@ -82,6 +82,7 @@ impl Triangulation {
             method: match self.method {
                 Method::Templates => "templates",
                 Method::Simple => "simple",
+                Method::Compact => "compact",
             },
             certificate: &self.certificate,
             max_level: self.max_level,

@@ -192,3 +192,42 @@ fn help_fits_a_screen() {
     assert_eq!(bench.run("-V").out, format!("hexdel {}\n", env!("CARGO_PKG_VERSION")));
     assert_eq!(bench.run("").code, 2);
 }
+
+#[test]
+fn compact_meshes_are_small_and_hold() {
+    let bench = Bench::new();
+    let input = fixture("points/plane100.node");
+    let triangles = |more: &str| {
+        bench.run(&format!("mesh {input} -q -o m.ele --report r.json {more}")).fine();
+        bench.run(&format!("check m.ele --input {input}")).fine();
+        bench.json("r.json")["triangles"].as_u64().unwrap()
+    };
+    let templates = triangles("");
+    let standard = triangles("--method compact");
+    let fast = triangles("--method compact --effort fast");
+    let none = triangles("--method compact --budget 0");
+    assert!(8 * standard < templates && standard < fast && none == templates, "{standard} {fast} {none}");
+    assert_eq!(bench.json("r.json")["method"], "compact");
+}
+
+#[test]
+fn angles_may_be_asked_for() {
+    let bench = Bench::new();
+    let input = fixture("points/two_close.node");
+    bench.run(&format!("mesh {input} -q --method compact --min-angle 30 --report r.json")).fine();
+    assert_eq!(bench.json("r.json")["bounds"]["min_deg"], 30.0);
+    assert_eq!(bench.json("r.json")["bounds"]["max_deg"], 90.0);
+    for (arguments, code, message) in [
+        ("--min-angle 50", 2, "more than the method keeps"),
+        ("--min-angle 70", 2, "no triangle has all angles"),
+        ("--max-angle -1", 2, "no triangle has all angles"),
+        ("--method compact --budget -1", 2, "expected a number of seconds"),
+        ("--method compact --effort none", 2, "possible values"),
+        ("--method compact --min-angle 59.9 --max-angle 60.1", 1, "did not reach"),
+    ] {
+        let run = bench.run(&format!("mesh {input} -o x.ele {arguments}"));
+        assert_eq!(run.code, code, "{arguments}: {}", run.err);
+        assert!(run.err.contains(message), "{arguments}: {}", run.err);
+    }
+    assert!(!bench.names().iter().any(|name| name.starts_with("x.")));
+}

@@ -1,0 +1,95 @@
+//! Prints what the optimiser does: triangles per point, CPU time per point,
+//! attempts and successes.
+//!
+//! `compact_bench [start] [effort] [min] [input..]` where start is `templates`,
+//! `separate`, `apart` or `among`, effort `fast`, `standard` or `best`, and an input a number of uniform
+//! points or one of `line two grid circle cluster pairs`.
+
+#![allow(clippy::print_stdout, reason = "a program that prints")]
+
+mod support;
+
+use std::time::Instant;
+
+use hexdel_geom::{AngleBounds, DVec2, Unwatched};
+use hexdel_optimize::{Effort, OptimizeError, Options, Stats, optimize};
+use hexdel_refine::Start as Coarse;
+use support::{Rule, points, start};
+
+fn main() {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let rule = match args.first().map(String::as_str) {
+        Some("separate") => Rule::Coarse(Coarse::Separate),
+        Some("apart") => Rule::Coarse(Coarse::Apart),
+        Some("among") => Rule::Coarse(Coarse::Among),
+        _ => Rule::Templates,
+    };
+    let effort = match args.get(1).map(String::as_str) {
+        Some("fast") => Effort::Fast,
+        Some("best") => Effort::Best,
+        _ => Effort::Standard,
+    };
+    let extended = AngleBounds::EXTENDED;
+    let min = args.get(2).and_then(|a| a.parse().ok()).unwrap_or(extended.min_deg());
+    let bounds = AngleBounds::new(min, 90.0).expect("feasible bounds");
+    let mut inputs: Vec<String> = args.into_iter().skip(3).collect();
+    if inputs.is_empty() {
+        inputs = ["100", "1000", "10000"].map(String::from).to_vec();
+    }
+    println!(
+        "input: start/pt, triangles/pt, CPU ms/pt, rounds; successes/attempts of repairs, removals, shakes; steps"
+    );
+    for name in inputs {
+        run(&name, rule, &Options::new(bounds, effort));
+    }
+}
+
+fn input(name: &str) -> Vec<DVec2> {
+    match name {
+        "line" => points::line(100, 1),
+        "two" => points::two_close(),
+        "grid" => points::grid(10),
+        "circle" => points::circle(100),
+        "cluster" => points::clusters(1000, 1),
+        "pairs" => points::pairs(50, 1e-4, 1),
+        n => points::uniform(n.parse().expect("a count"), 1),
+    }
+}
+
+fn run(name: &str, rule: Rule, options: &Options) {
+    let points = input(name);
+    let start = start(&points, rule);
+    let n = points.len() as f64;
+    let before = start.mesh.triangles.len() as f64 / n;
+    let cpu = cpu_seconds();
+    let ms = || (cpu_seconds() - cpu) * 1e3 / n;
+    let wall = Instant::now();
+    let (result, bad) = match optimize(start.mesh, &start.kinds, options, &Unwatched) {
+        Ok(result) => (result, 0),
+        Err(OptimizeError::Unreached { best, bad, .. }) => (*best, bad),
+        Err(error) => return println!("{name}: {error}"),
+    };
+    let Stats { rounds, repairs, removals, shakes, steps, .. } = result.stats;
+    println!(
+        "{name}: {before:.2}, {:.3}, {:.4}, {rounds}; {}/{} {}/{} {}/{}; {steps}; wall {:.2} s, {bad} bad",
+        result.mesh.triangles.len() as f64 / n,
+        ms(),
+        repairs[1],
+        repairs[0],
+        removals[1],
+        removals[0],
+        shakes[1],
+        shakes[0],
+        wall.elapsed().as_secs_f64(),
+    );
+}
+
+/// CPU time of this process so far; zero where the system does not tell.
+fn cpu_seconds() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // User and system time are the 12th and 13th fields after the name, in
+    // ticks of a hundredth of a second.
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace();
+    let ticks: f64 = fields.skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()).sum();
+    ticks / 100.0
+}

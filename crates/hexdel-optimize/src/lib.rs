@@ -1,0 +1,50 @@
+//! Local optimisation of triangle meshes to hard angle bounds.
+//!
+//! Given a mesh, what each vertex may do, and an interval of angles, this
+//! crate moves free vertices, flips edges and changes the topology until every
+//! angle is inside, then removes as many vertices as it can without leaving
+//! the interval. It knows meshes and bounds and nothing of hexagons; how the
+//! start mesh was made is no business of its own.
+//!
+//! | module | what |
+//! |---|---|
+//! | `options`, `error` | what the caller says and gets |
+//! | `outline` | [`kinds_of`]: what vertices may do, from the outline |
+//! | `schedule` | [`optimize`]: rounds of work over all parts of the mesh |
+//! | `partition` | cuts the mesh into parts, the same for any number of threads |
+//! | `repair` | brings all angles inside |
+//! | `decimate` | removes vertices |
+//! | `shake` | random changes that let more vertices go |
+//! | `change`, `refill` | candidate changes of topology and their ranking |
+//! | `work` | a mesh under work: patch, flips, commit, rollback |
+//! | `patch` | moves the vertices of a patch until its angles hold |
+//! | `flip` | Lawson flips in a patch |
+//! | `mesh` | the editable mesh with its journal |
+//! | `angles` | bounds as polynomial tests |
+//!
+//! Every change is kept only where all angles it touches hold (in repair:
+//! where the distance outside falls), so work can be stopped at any time.
+//! `docs/compact.md` says what was tried and what it cost.
+
+mod angles;
+mod change;
+mod decimate;
+mod error;
+mod flip;
+mod import;
+mod mesh;
+mod options;
+mod outline;
+mod partition;
+mod patch;
+mod random;
+mod refill;
+mod repair;
+mod schedule;
+mod shake;
+mod work;
+
+pub use error::OptimizeError;
+pub use options::{Effort, Optimized, Options, Stats, VertexKind};
+pub use outline::kinds_of;
+pub use schedule::optimize;

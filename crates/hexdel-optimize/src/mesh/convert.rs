@@ -1,0 +1,94 @@
+//! Between arrays and the editable mesh.
+
+use hexdel_geom::DVec2;
+
+use super::{Mesh, Motion, NONE, Tri};
+
+/// A mesh as arrays: what is kept between the rounds of work. All but `tris`
+/// are as long as `pos`.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Soup {
+    pub(crate) pos: Vec<DVec2>,
+    pub(crate) motion: Vec<Motion>,
+    /// Angle of the domain at each vertex, radians.
+    pub(crate) sector: Vec<f64>,
+    /// Index of the vertex in the caller's mesh, `NONE` for new ones.
+    pub(crate) origin: Vec<u32>,
+    /// Radius in rings of the patches in which the removal of the vertex
+    /// failed, with nothing changed nearby since; 0 if it has not been tried.
+    pub(crate) failed: Vec<u8>,
+    pub(crate) tris: Vec<[u32; 3]>,
+}
+
+/// A side that two triangles have in the same direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BadSide {
+    pub(crate) from: u32,
+    pub(crate) to: u32,
+}
+
+/// The vertices of a mesh to be built.
+pub(crate) struct Vertices {
+    pub(crate) pos: Vec<DVec2>,
+    pub(crate) motion: Vec<Motion>,
+    pub(crate) sector: Vec<f64>,
+    /// Triangles at each vertex that are not in the mesh.
+    pub(crate) outside: Vec<u16>,
+}
+
+impl Mesh {
+    /// Builds the mesh of `tris`.
+    ///
+    /// # Complexity
+    ///
+    /// Linear for vertices of bounded degree.
+    pub(crate) fn build(vertices: Vertices, tris: &[[u32; 3]]) -> Result<Self, BadSide> {
+        let Vertices { pos, motion, sector, outside: mut degree } = vertices;
+        let neighbours = neighbours(pos.len(), tris)?;
+        let mut anchor = vec![NONE; pos.len()];
+        for (t, v) in tris.iter().enumerate() {
+            for &v in v {
+                anchor[v as usize] = t as u32;
+                degree[v as usize] += 1;
+            }
+        }
+        let tri = tris.iter().zip(neighbours).map(|(&v, n)| Tri { v, n }).collect();
+        Ok(Self { pos, motion, sector, tri, anchor, degree, journal: Vec::new() })
+    }
+}
+
+/// The neighbours of each triangle, found by sorting the sides into buckets
+/// by their smaller vertex.
+fn neighbours(vertices: usize, tris: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, BadSide> {
+    let side = |t: usize, k: usize| (tris[t][(k + 1) % 3], tris[t][(k + 2) % 3]);
+    let sides = || (0..tris.len()).flat_map(|t| (0..3).map(move |k| (t, k)));
+    let mut start = vec![0u32; vertices + 1];
+    for (t, k) in sides() {
+        let (a, b) = side(t, k);
+        start[a.min(b) as usize + 1] += 1;
+    }
+    for i in 0..vertices {
+        start[i + 1] += start[i];
+    }
+    let mut bucket = vec![0u32; tris.len() * 3];
+    let mut n = vec![[NONE; 3]; tris.len()];
+    let mut fill = start.clone();
+    for (t, k) in sides() {
+        let (a, b) = side(t, k);
+        let low = a.min(b) as usize;
+        for &code in &bucket[start[low] as usize..fill[low] as usize] {
+            let (t2, k2) = (code as usize / 3, code as usize % 3);
+            let other = side(t2, k2);
+            if other == (a, b) {
+                return Err(BadSide { from: a, to: b });
+            }
+            if other == (b, a) {
+                n[t][k] = t2 as u32;
+                n[t2][k2] = t as u32;
+            }
+        }
+        bucket[fill[low] as usize] = (3 * t + k) as u32;
+        fill[low] += 1;
+    }
+    Ok(n)
+}

@@ -1,0 +1,172 @@
+//! The changes of topology: all are one operation, the replacement of a few
+//! triangles by others with the same outline.
+
+use super::{Mesh, Motion, NONE, Tri};
+
+/// One directed side of the outline and what lies beyond it.
+#[derive(Clone, Copy)]
+struct Side {
+    from: u32,
+    to: u32,
+    beyond: u32,
+}
+
+impl Mesh {
+    /// Replaces the triangles `old` by `new`, which must cover the same
+    /// outline, counter-clockwise. Slots of `old` are reused; the ids of the
+    /// new triangles are appended to `made`.
+    ///
+    /// The caller has checked that no edge of `new` inside the outline exists
+    /// outside of it ([`Mesh::adjacent`]).
+    pub(crate) fn replace(&mut self, old: &[u32], new: &[[u32; 3]], made: &mut Vec<u32>) {
+        let outline = self.outline(old);
+        let mut dropped: Vec<u32> = Vec::new();
+        for &t in old {
+            dropped.extend(self.tri[t as usize].v);
+        }
+        for &t in &old[new.len().min(old.len())..] {
+            self.set_tri(t, Tri::DEAD);
+        }
+        let base = made.len();
+        for i in 0..new.len() {
+            let t = if i < old.len() { old[i] } else { self.add_tri() };
+            made.push(t);
+        }
+        for (i, &v) in new.iter().enumerate() {
+            let mut tri = Tri { v, n: [NONE; 3] };
+            for k in 0..3 {
+                let (from, to) = (v[(k + 1) % 3], v[(k + 2) % 3]);
+                let inner = new.iter().position(|w| has_side(*w, to, from));
+                tri.n[k] = match inner {
+                    Some(j) => made[base + j],
+                    None => self.attach(&outline, from, to, made[base + i]),
+                };
+            }
+            self.set_tri(made[base + i], tri);
+            for w in v {
+                self.set_anchor(w, made[base + i]);
+            }
+        }
+        for v in dropped {
+            if !new.iter().any(|w| w.contains(&v)) {
+                self.set_anchor(v, NONE);
+            }
+        }
+    }
+
+    fn outline(&self, old: &[u32]) -> Vec<Side> {
+        let mut sides = Vec::with_capacity(12);
+        for &t in old {
+            let tri = self.tri[t as usize];
+            for k in 0..3 {
+                if tri.n[k] == NONE || !old.contains(&tri.n[k]) {
+                    sides.push(Side { from: tri.v[(k + 1) % 3], to: tri.v[(k + 2) % 3], beyond: tri.n[k] });
+                }
+            }
+        }
+        sides
+    }
+
+    /// Tells what lies beyond the side `from to` that its neighbour is `t`.
+    fn attach(&mut self, outline: &[Side], from: u32, to: u32, t: u32) -> u32 {
+        // A side that joins two sides of the rim (a rim vertex removed) has
+        // no counterpart in the outline: it is rim itself.
+        let Some(side) = outline.iter().find(|s| s.from == from && s.to == to) else {
+            return NONE;
+        };
+        if side.beyond != NONE {
+            let mut tri = self.tri[side.beyond as usize];
+            let k = (0..3).find(|&k| tri.v[(k + 1) % 3] == to && tri.v[(k + 2) % 3] == from);
+            debug_assert!(k.is_some(), "neighbours share a side");
+            if let Some(k) = k {
+                tri.n[k] = t;
+                self.set_tri(side.beyond, tri);
+            }
+        }
+        side.beyond
+    }
+
+    /// The two triangles and four vertices of the side opposite corner `k` of
+    /// `t`: `[apex, from, to, far apex]`, unless the side is rim.
+    pub(crate) fn diamond(&self, t: u32, k: usize) -> Option<(u32, [u32; 4])> {
+        let tri = self.tri[t as usize];
+        let u = tri.n[k];
+        if u == NONE {
+            return None;
+        }
+        let (from, to) = (tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]);
+        let far = self.tri[u as usize].v.into_iter().find(|&v| v != from && v != to)?;
+        Some((u, [tri.v[k], from, to, far]))
+    }
+
+    /// Whether the side opposite corner `k` of `t` can be exchanged for the
+    /// other diagonal without making the topology degenerate.
+    pub(crate) fn can_flip(&self, [apex, from, to, far]: [u32; 4]) -> bool {
+        self.degree(from) > 2 && self.degree(to) > 2 && apex != far && !self.adjacent(apex, far)
+    }
+
+    /// Exchanges the side opposite corner `k` of `t` for the other diagonal;
+    /// false, and nothing done, where that is impossible.
+    pub(crate) fn flip(&mut self, t: u32, k: usize) -> bool {
+        let Some((u, d)) = self.diamond(t, k) else {
+            return false;
+        };
+        if !self.can_flip(d) {
+            return false;
+        }
+        let [apex, from, to, far] = d;
+        let a = self.tri[t as usize];
+        let b = self.tri[u as usize];
+        let j = b.corner(far);
+        // Beyond from-far, far-to, to-apex, apex-from.
+        let beyond = [b.n[b.corner(to)], b.n[b.corner(from)], a.n[(k + 1) % 3], a.n[(k + 2) % 3]];
+        debug_assert_eq!(b.n[j], t);
+        self.set_tri(t, Tri { v: [apex, from, far], n: [beyond[0], u, beyond[3]] });
+        self.set_tri(u, Tri { v: [far, to, apex], n: [beyond[2], t, beyond[1]] });
+        self.relink(beyond[0], u, t);
+        self.relink(beyond[2], t, u);
+        self.set_anchor(from, t);
+        self.set_anchor(to, u);
+        self.set_anchor(apex, t);
+        self.set_anchor(far, t);
+        true
+    }
+
+    fn relink(&mut self, at: u32, old: u32, new: u32) {
+        if at != NONE {
+            let mut tri = self.tri[at as usize];
+            for n in &mut tri.n {
+                if *n == old {
+                    *n = new;
+                }
+            }
+            self.set_tri(at, tri);
+        }
+    }
+
+    /// Puts a new vertex at the middle of the side opposite corner `k` of `t`.
+    ///
+    /// A vertex on the rim slides along its side, any other is free. None
+    /// where the side is the seam to another part.
+    pub(crate) fn split_edge(&mut self, t: u32, k: usize, made: &mut Vec<u32>) -> Option<u32> {
+        let v = self.tri[t as usize].v;
+        let (apex, from, to) = (v[k], v[(k + 1) % 3], v[(k + 2) % 3]);
+        let (p, q) = (self.pos[from as usize], self.pos[to as usize]);
+        let mid = 0.5 * (p + q);
+        if let Some((u, [_, _, _, far])) = self.diamond(t, k) {
+            let m = self.add_vertex(mid, Motion::Free, std::f64::consts::TAU);
+            self.replace(&[t, u], &[[apex, from, m], [apex, m, to], [far, m, from], [far, to, m]], made);
+            Some(m)
+        } else if [from, to].iter().all(|v| self.motion[*v as usize] == Motion::Frozen) {
+            None
+        } else {
+            let m = self.add_vertex(mid, Motion::Along((q - p).normalize()), std::f64::consts::PI);
+            self.replace(&[t], &[[apex, from, m], [apex, m, to]], made);
+            Some(m)
+        }
+    }
+}
+
+fn has_side(v: [u32; 3], from: u32, to: u32) -> bool {
+    (0..3).any(|k| v[k] == from && v[(k + 1) % 3] == to)
+}

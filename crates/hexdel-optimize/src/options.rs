@@ -1,0 +1,114 @@
+//! What the caller says and gets.
+
+use std::time::Duration;
+
+use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
+
+/// How a vertex may move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum VertexKind {
+    /// Not at all: input points and corners of the domain. Its coordinates
+    /// come back bit for bit.
+    Fixed,
+    /// Along a straight side of the domain, whose unit direction this is. It
+    /// may be removed.
+    Sliding(DVec2),
+    /// Anywhere. It may be removed.
+    Free,
+}
+
+/// How long to work.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Effort {
+    /// Half of the passes of removals: a fifth more triangles than standard in
+    /// two thirds of the time.
+    Fast,
+    /// All passes that pay.
+    #[default]
+    Standard,
+    /// More passes, then random changes that make more removals possible:
+    /// a tenth fewer triangles than standard in several times the time.
+    Best,
+}
+
+/// What to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// The bounds every angle must keep.
+    pub bounds: AngleBounds,
+    /// How long to work.
+    pub effort: Effort,
+    /// Wall-clock limit. Without one the result depends on the input alone;
+    /// with one, also on the speed of the machine.
+    pub budget: Option<Duration>,
+    /// Seed of the random choices.
+    pub seed: u64,
+}
+
+impl Options {
+    /// Options without a budget.
+    pub fn new(bounds: AngleBounds, effort: Effort) -> Self {
+        Self { bounds, effort, ..Self::default() }
+    }
+
+    /// The same with a wall-clock limit.
+    #[must_use]
+    pub fn with_budget(self, budget: Duration) -> Self {
+        Self { budget: Some(budget), ..self }
+    }
+
+    /// The same with another seed.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+}
+
+/// A mesh and where its vertices come from.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Optimized {
+    /// The mesh. Vertices that were there before keep their order; new ones
+    /// follow.
+    pub mesh: TriMesh,
+    /// For each vertex of the mesh given, which one it is now; none for
+    /// removed ones. Fixed vertices are never removed.
+    pub vertices: Vec<Option<VertexId>>,
+    /// Kinds of the vertices of `mesh`.
+    pub kinds: Vec<VertexKind>,
+    /// What it took.
+    pub stats: Stats,
+    /// False when the budget stopped the work before its end.
+    pub finished: bool,
+}
+
+/// Counts of work.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Stats {
+    /// Rounds of all phases.
+    pub rounds: usize,
+    /// Patches solved to bring angles inside, and how many of them succeeded.
+    pub repairs: [u64; 2],
+    /// Removals tried and done.
+    pub removals: [u64; 2],
+    /// Shakes tried and kept.
+    pub shakes: [u64; 2],
+    /// Levenberg-Marquardt steps.
+    pub steps: u64,
+}
+
+impl Stats {
+    pub(crate) fn add(&mut self, o: &Self) {
+        self.rounds += o.rounds;
+        for i in 0..2 {
+            self.repairs[i] += o.repairs[i];
+            self.removals[i] += o.removals[i];
+            self.shakes[i] += o.shakes[i];
+        }
+        self.steps += o.steps;
+    }
+}

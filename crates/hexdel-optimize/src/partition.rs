@@ -1,0 +1,152 @@
+//! Cuts a mesh into parts that can be worked on side by side.
+//!
+//! A part is a set of triangles; the vertices it shares with others are frozen
+//! while it is worked on. Each round cuts elsewhere, so that what lies on a
+//! seam now lies inside a part next time. The cuts depend on the mesh and the
+//! round alone, never on the number of threads.
+
+use hexdel_geom::DVec2;
+
+use crate::mesh::{Mesh, Motion, NONE, Soup, Vertices};
+
+/// Triangles in a part, at most. A part's arrays fill the second-level cache;
+/// its seam is a tenth of its vertices.
+const PART: usize = 4000;
+
+/// Where a range of triangles is cut, in hundredths of its length, in turn
+/// from round to round; near the middle but never at the same place.
+const CUTS: [usize; 5] = [50, 41, 57, 45, 62];
+
+/// Triangles of one part and what is needed to merge it again.
+pub(crate) struct Part {
+    pub(crate) mesh: Mesh,
+    /// Index in the soup of each vertex of the mesh as it was cut out.
+    pub(crate) global: Vec<u32>,
+    pub(crate) failed: Vec<u8>,
+}
+
+/// The triangles of each part, ascending.
+pub(crate) fn partition(soup: &Soup, round: usize) -> Vec<Vec<u32>> {
+    let centre = |t: u32| soup.tris[t as usize].iter().map(|v| soup.pos[*v as usize]).sum::<DVec2>();
+    let mut items: Vec<(DVec2, u32)> = (0..soup.tris.len() as u32).map(|t| (centre(t), t)).collect();
+    let mut parts = Vec::new();
+    cut(&mut items, CUTS[round % CUTS.len()], &mut parts);
+    parts
+}
+
+/// Halves `items` along their longer extent until the parts are small.
+fn cut(items: &mut [(DVec2, u32)], at: usize, parts: &mut Vec<Vec<u32>>) {
+    if items.len() <= PART {
+        let mut part: Vec<u32> = items.iter().map(|i| i.1).collect();
+        part.sort_unstable();
+        parts.push(part);
+        return;
+    }
+    let (lo, hi) =
+        items.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), i| (l.min(i.0), h.max(i.0)));
+    let wide = hi.x - lo.x >= hi.y - lo.y;
+    let key = |p: DVec2| if wide { p.x } else { p.y };
+    let middle = items.len() * at / 100;
+    items.select_nth_unstable_by(middle, |a, b| key(a.0).total_cmp(&key(b.0)).then(a.1.cmp(&b.1)));
+    let (left, right) = items.split_at_mut(middle);
+    cut(left, at, parts);
+    cut(right, at, parts);
+}
+
+/// What the parts need to know of the whole.
+pub(crate) struct Seams {
+    /// Triangles at each vertex of the soup.
+    degree: Vec<u16>,
+    /// Whether each vertex of the soup is in more than one part.
+    shared: Vec<bool>,
+}
+
+impl Seams {
+    pub(crate) fn new(soup: &Soup, parts: &[Vec<u32>]) -> Self {
+        let mut degree = vec![0u16; soup.pos.len()];
+        let mut owner = vec![NONE; soup.pos.len()];
+        let mut shared = vec![false; soup.pos.len()];
+        for (p, part) in parts.iter().enumerate() {
+            for &v in part.iter().flat_map(|&t| &soup.tris[t as usize]) {
+                let v = v as usize;
+                degree[v] += 1;
+                shared[v] |= owner[v] != NONE && owner[v] != p as u32;
+                owner[v] = p as u32;
+            }
+        }
+        Self { degree, shared }
+    }
+}
+
+/// Cuts one part out of the soup.
+pub(crate) fn extract(soup: &Soup, seams: &Seams, triangles: &[u32]) -> Part {
+    let mut global: Vec<u32> = triangles.iter().flat_map(|&t| soup.tris[t as usize]).collect();
+    global.sort_unstable();
+    global.dedup();
+    let local = |v: u32| global.binary_search(&v).expect("every corner was collected") as u32;
+    let tris: Vec<[u32; 3]> = triangles.iter().map(|&t| soup.tris[t as usize].map(local)).collect();
+    let mut outside: Vec<u16> = global.iter().map(|&v| seams.degree[v as usize]).collect();
+    for &v in tris.iter().flatten() {
+        outside[v as usize] -= 1;
+    }
+    let motion = |v: u32| {
+        if seams.shared[v as usize] { Motion::Frozen } else { soup.motion[v as usize] }
+    };
+    let vertices = Vertices {
+        pos: global.iter().map(|&v| soup.pos[v as usize]).collect(),
+        motion: global.iter().map(|&v| motion(v)).collect(),
+        sector: global.iter().map(|&v| soup.sector[v as usize]).collect(),
+        outside,
+    };
+    let failed = global.iter().map(|&v| soup.failed[v as usize]).collect();
+    let mesh = Mesh::build(vertices, &tris).expect("a part of a manifold is one but for its seam");
+    Part { mesh, global, failed }
+}
+
+/// Puts the parts together again: the vertices that are left keep their order,
+/// new ones follow, part by part.
+pub(crate) fn merge(soup: &Soup, parts: &[Part]) -> Soup {
+    let mut pos = soup.pos.clone();
+    let mut failed = soup.failed.clone();
+    let mut dead = vec![false; soup.pos.len()];
+    for part in parts {
+        for (i, &g) in part.global.iter().enumerate() {
+            let g = g as usize;
+            dead[g] |= !part.mesh.alive(i as u32);
+            if part.mesh.motion[i] == Motion::Frozen {
+                failed[g] = failed[g].min(part.failed[i]);
+            } else {
+                pos[g] = part.mesh.pos[i];
+                failed[g] = part.failed[i];
+            }
+        }
+    }
+    let mut out = Soup::default();
+    let mut renamed = vec![NONE; soup.pos.len()];
+    for g in (0..soup.pos.len()).filter(|&g| !dead[g]) {
+        renamed[g] = out.pos.len() as u32;
+        out.push(pos[g], soup.motion[g], soup.sector[g], soup.origin[g], failed[g]);
+    }
+    for part in parts {
+        let old = part.global.len();
+        let mut names: Vec<u32> = part.global.iter().map(|&g| renamed[g as usize]).collect();
+        for i in old..part.mesh.pos.len() {
+            names.push(out.pos.len() as u32);
+            if part.mesh.alive(i as u32) {
+                out.push(part.mesh.pos[i], part.mesh.motion[i], part.mesh.sector[i], NONE, part.failed[i]);
+            }
+        }
+        out.tris.extend(part.mesh.live().map(|t| part.mesh.tri[t as usize].v.map(|v| names[v as usize])));
+    }
+    out
+}
+
+impl Soup {
+    fn push(&mut self, pos: DVec2, motion: Motion, sector: f64, origin: u32, failed: u8) {
+        self.pos.push(pos);
+        self.motion.push(motion);
+        self.sector.push(sector);
+        self.origin.push(origin);
+        self.failed.push(failed);
+    }
+}

@@ -1,0 +1,119 @@
+//! Projection sweeps: each corner that is outside is pushed onto its bound, by
+//! the smallest motion of its triangle's vertices that does it to first
+//! order, one corner after the other.
+//!
+//! This is the relaxation method for inequalities (Motzkin & Schoenberg, "The
+//! relaxation method for linear inequalities", 1954) on the functions
+//! `|u||w| sin(angle - min)` and `|u||w| sin(max - angle)`, which are
+//! quadratic polynomials of the coordinates. Steps beyond the bound by half
+//! make it end after finitely many on most patches that have a solution.
+
+use hexdel_geom::DVec2;
+
+use super::Patch;
+use crate::angles::{Limits, Measure};
+
+/// Each push goes this many times as far as to the bound. Between 1 and 2 the
+/// method converges; measured best on removals.
+const OVER: f64 = 1.6;
+
+/// Sweeps between two looks at the progress.
+const WINDOW: usize = 4;
+
+/// A push changes the sine of an angle by no more than twice this: beyond, the
+/// first order means nothing.
+const CAP: f64 = 0.15;
+
+/// How long to sweep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sweeps {
+    /// Most sweeps.
+    pub(crate) most: usize,
+    /// Stop when the energy is not below this share of what it was
+    /// `WINDOW` sweeps before.
+    pub(crate) stall: f64,
+}
+
+impl Patch {
+    /// Sweeps over the patch until a sweep finds nothing outside the target.
+    ///
+    /// # Complexity
+    ///
+    /// A sweep is linear in the patch's triangles.
+    pub(crate) fn project(&mut self, limits: &Limits, sweeps: Sweeps) {
+        let mut before = f64::INFINITY;
+        for sweep in 1..=sweeps.most {
+            let energy = self.sweep(limits);
+            if energy == 0.0 {
+                return;
+            }
+            if sweep % WINDOW == 0 {
+                // A triangle none of whose corners can move makes it infinite.
+                if energy > sweeps.stall * before || energy == f64::INFINITY {
+                    return;
+                }
+                before = energy;
+            }
+        }
+    }
+
+    /// One sweep; returns the sum of squared motions in units of the shortest
+    /// edges.
+    fn sweep(&mut self, limits: &Limits) -> f64 {
+        let mut energy = 0.0;
+        for i in 0..self.tris.len() {
+            let t = self.tris[i].map(|v| v as usize);
+            let [a, b, c] = t.map(|v| self.pos[v]);
+            let m = Measure::of(a, b, c);
+            if limits.on_target(&m) {
+                continue;
+            }
+            let (low, high) = limits.outside(&m);
+            if let Some((k, g)) = low {
+                energy += self.push(t, k, g, limits.lower_turn());
+            }
+            if let Some((k, g)) = high {
+                energy += self.push(t, k, g, limits.upper_turn());
+            }
+        }
+        energy
+    }
+
+    /// Moves the corners of `t` against `g = cross * turn.x + dot * turn.y`,
+    /// which is negative at corner `k`.
+    #[inline]
+    fn push(&mut self, t: [usize; 3], k: usize, g: f64, turn: DVec2) -> f64 {
+        let v = match k {
+            0 => t,
+            1 => [t[1], t[2], t[0]],
+            _ => [t[2], t[0], t[1]],
+        };
+        let [a, b, c] = v.map(|v| self.pos[v]);
+        let (u, w) = (b - a, c - a);
+        let at_c = turn.x * u.perp() + turn.y * u;
+        let at_b = turn.y * w - turn.x * w.perp();
+        let mut d = [-(at_b + at_c), at_b, at_c];
+        if self.slides {
+            for i in 0..3 {
+                let along = self.along[v[i]];
+                if along != DVec2::ZERO {
+                    d[i] = along * along.dot(d[i]);
+                }
+            }
+        }
+        let weight = v.map(|v| self.weight[v]);
+        let norm = weight[0] * d[0].length_squared()
+            + weight[1] * d[1].length_squared()
+            + weight[2] * d[2].length_squared();
+        if norm <= 0.0 {
+            return f64::INFINITY;
+        }
+        let cap = CAP * (u.length_squared() + w.length_squared());
+        let inverse = 1.0 / norm;
+        let step = OVER * (-g).min(cap) * inverse;
+        for i in 0..3 {
+            self.pos[v[i]] += d[i] * (weight[i] * step);
+        }
+        g * g * inverse
+    }
+}

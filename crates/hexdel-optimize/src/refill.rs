@@ -1,0 +1,148 @@
+//! Which triangles close the hole a removed vertex leaves.
+//!
+//! All triangulations of the hole are compared (Catalan's number of them: 132
+//! for eight corners). What decides whether motion can bring the angles
+//! inside is mostly the number of triangles at each vertex: `n` triangles in a
+//! sector of angle `a` need `min <= a / n <= max`, and the nearer `a / n` is
+//! to either bound, the less room is left for the neighbours.
+
+use crate::angles::Limits;
+use crate::angles::Measure;
+use crate::mesh::Mesh;
+
+/// Holes with more corners are left alone: in bounds above 40 degrees a vertex
+/// has at most nine triangles, and removing one that has more than eight
+/// never helps its neighbours.
+pub(crate) const MAX_CORNERS: usize = 8;
+
+/// Weight of the squared angles outside the bounds, now, against the cost of
+/// degrees; measured.
+const SHAPE_WEIGHT: f64 = 0.1;
+
+/// Cost of a vertex with as many triangles as its sector cannot hold.
+const IMPOSSIBLE: f64 = 1e3;
+
+/// All triangulations of convex polygons.
+#[derive(Debug)]
+pub(crate) struct Refills {
+    /// Entry `n`: the triangulations of `n` corners, each `n - 2` triples.
+    of: Vec<Vec<Vec<[u8; 3]>>>,
+}
+
+impl Refills {
+    pub(crate) fn new() -> Self {
+        let of = (0..=MAX_CORNERS).map(|n| if n < 3 { Vec::new() } else { fans(0, n - 1) }).collect();
+        Self { of }
+    }
+
+    /// The cheapest `keep` refills of the hole with the corners `ring`, in
+    /// counter-clockwise order, cheapest first; `closed` says whether
+    /// it surrounds the removed vertex or ends at the rim.
+    pub(crate) fn choose(
+        &self,
+        mesh: &Mesh,
+        limits: &Limits,
+        ring: &[u32],
+        closed: bool,
+        keep: usize,
+        out: &mut Vec<(f64, usize)>,
+    ) {
+        out.clear();
+        let n = ring.len();
+        let shape = shapes(mesh, limits, ring);
+        let base: [usize; MAX_CORNERS] = std::array::from_fn(|i| {
+            if i >= n {
+                return 0;
+            }
+            let end = !closed && (i == 0 || i == n - 1);
+            mesh.degree(ring[i]) - if end { 1 } else { 2 }
+        });
+        for (index, tris) in self.of[n].iter().enumerate() {
+            let mut degree = base;
+            let mut cost = 0.0;
+            for t in tris {
+                for &c in t {
+                    degree[usize::from(c)] += 1;
+                }
+                cost += shape[usize::from(t[0])][usize::from(t[1])][usize::from(t[2])];
+            }
+            cost *= SHAPE_WEIGHT;
+            for i in 0..n {
+                cost += degree_cost(limits, mesh.sector[ring[i] as usize], degree[i]);
+            }
+            if cost < IMPOSSIBLE {
+                out.push((cost, index));
+            }
+        }
+        out.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        out.truncate(keep);
+    }
+
+    /// The triangles of refill `index` of a ring, or none where one of its
+    /// diagonals is an edge elsewhere.
+    pub(crate) fn triangles(
+        &self,
+        mesh: &Mesh,
+        ring: &[u32],
+        closed: bool,
+        index: usize,
+        out: &mut Vec<[u32; 3]>,
+    ) -> bool {
+        out.clear();
+        let n = ring.len();
+        for t in &self.of[n][index] {
+            for k in 0..3 {
+                let (i, j) = (usize::from(t[k]), usize::from(t[(k + 1) % 3]));
+                let (i, j) = (i.min(j), i.max(j));
+                let side = j == i + 1 || (closed && i == 0 && j == n - 1);
+                if !side && mesh.adjacent(ring[i], ring[j]) {
+                    return false;
+                }
+            }
+            out.push(t.map(|c| ring[usize::from(c)]));
+        }
+        true
+    }
+}
+
+/// The triangulations of corners `a..=b`.
+fn fans(a: usize, b: usize) -> Vec<Vec<[u8; 3]>> {
+    if b < a + 2 {
+        return vec![Vec::new()];
+    }
+    let mut all = Vec::new();
+    for m in a + 1..b {
+        for left in fans(a, m) {
+            for right in fans(m, b) {
+                let mut t = left.clone();
+                t.extend(right);
+                t.push([a as u8, m as u8, b as u8]);
+                all.push(t);
+            }
+        }
+    }
+    all
+}
+
+#[allow(clippy::needless_range_loop, reason = "the three indices are one key")]
+fn shapes(mesh: &Mesh, limits: &Limits, ring: &[u32]) -> [[[f64; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS] {
+    let mut shape = [[[0.0; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS];
+    let p = |i: usize| mesh.pos[ring[i] as usize];
+    for i in 0..ring.len() {
+        for j in i + 1..ring.len() {
+            for k in j + 1..ring.len() {
+                shape[i][j][k] = limits.energy(&Measure::of(p(i), p(j), p(k)));
+            }
+        }
+    }
+    shape
+}
+
+/// How little room `degree` triangles leave in a sector: the inverse of the
+/// distance of their mean angle to the bounds, in degrees, plus one.
+pub(crate) fn degree_cost(limits: &Limits, sector: f64, degree: usize) -> f64 {
+    let mean = sector / degree as f64;
+    // A sector's angle carries the rounding of an arc cosine.
+    let room = (mean - limits.min_rad).min(limits.max_rad - mean) + 1e-9;
+    if room < 0.0 { IMPOSSIBLE } else { 1.0 / (room.to_degrees() + 1.0) }
+}

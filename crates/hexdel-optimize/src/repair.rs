@@ -1,0 +1,243 @@
+//! Brings all angles inside the bounds: motion first, then changes of topology
+//! near what is left, then more vertices.
+//!
+//! A step that does not settle its patch is kept only where it lowers the
+//! energy by a tenth, so that a bad spot can be worked off in several steps
+//! but not wander.
+
+use crate::change::{Action, Finder, apply};
+use crate::decimate::{Pass, try_remove};
+use crate::mesh::{Mesh, Motion};
+use crate::patch::{State, Sweeps};
+use crate::work::{Effort, Work};
+
+/// What one round does to each bad triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Step {
+    /// Moves up to this many rings around the triangle.
+    Move { rings: usize },
+    /// Tries so many changes of topology at the triangle, or around it if
+    /// `wide`, and moves up to so many rings.
+    Search { changes: usize, rings: usize, wide: bool },
+    /// Removes vertices of three rings around the triangle; one that has no
+    /// corner that can move is split.
+    Thin,
+    /// Splits the sides of the triangle.
+    Refine,
+}
+
+/// The rounds, until nothing is bad.
+pub(crate) fn step(round: usize) -> Step {
+    match round {
+        0 => Step::Move { rings: 2 },
+        1 | 2 => Step::Move { rings: 3 },
+        3 => Step::Search { changes: 10, rings: 2, wide: false },
+        4 => Step::Search { changes: 20, rings: 3, wide: false },
+        r if r % 4 == 1 => Step::Thin,
+        r if r % 8 == 3 && r > 8 => Step::Refine,
+        r if r % 4 == 2 => Step::Search { changes: 30, rings: 3, wide: r > 8 },
+        _ => Step::Search { changes: 60, rings: 4, wide: true },
+    }
+}
+
+/// Rounds that come before removals: motion alone.
+pub(crate) const FIRST_ROUNDS: usize = 3;
+
+/// Rounds after which a mesh is given up.
+pub(crate) const ROUNDS: usize = 31;
+
+/// Energy has to fall below this share for an unsolved patch to be kept.
+const KEEP_BELOW: f64 = 0.9;
+
+/// Energy up to which a change that is meant to give room is kept: a few
+/// corners some degrees outside, which motion and search can settle.
+const TOLERATED: f64 = 0.1;
+
+const MOVE: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.7 }, turns: 2, near: 0.3, steps: 4 };
+const SCREEN: Effort = Effort { sweeps: Sweeps { most: 16, stall: 0.7 }, turns: 2, near: 1.0, steps: 2 };
+const FINISH: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.8 }, turns: 3, near: 0.3, steps: 8 };
+
+const THIN: Pass = Pass { rings: 3, refills: 2, max_cost: 0.8, near: 0.05 };
+
+/// Changes that are worked out after screening.
+const FINALISTS: usize = 4;
+
+/// One round over the bad triangles.
+pub(crate) fn repair(work: &mut Work, step: Step) {
+    for t in work.bad() {
+        if !work.is_bad(t) {
+            continue;
+        }
+        match step {
+            Step::Move { rings } => {
+                move_rings(work, t, rings);
+            }
+            Step::Search { changes, rings, wide } => {
+                if !move_rings(work, t, rings) && work.is_bad(t) {
+                    search(work, t, changes, rings, wide);
+                }
+            }
+            Step::Thin if has_no_room(&work.mesh, t) => refine(work, t, f64::INFINITY),
+            Step::Thin => thin(work, t),
+            Step::Refine => refine(work, t, TOLERATED),
+        }
+    }
+}
+
+/// Loads the patch of so many rings around triangle `t`.
+fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
+    work.load(verts);
+    for _ in 1..rings {
+        work.grow();
+    }
+}
+
+/// Moves ever more rings around `t`; true when that settled the patch.
+fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
+    let corners = work.mesh.tri[t as usize].v;
+    for r in 1..=rings {
+        load_rings(work, &corners, r);
+        let before = work.patch.state(work.limits).energy;
+        let last = r == rings;
+        work.stats.repairs[0] += 1;
+        let state = work.solve(if last { MOVE } else { Effort { near: 0.0, ..MOVE } });
+        if state.solved && work.changes_hold() {
+            work.stats.repairs[1] += 1;
+            work.commit();
+            return true;
+        }
+        if last && state.energy < KEEP_BELOW * before {
+            work.commit();
+            return false;
+        }
+        work.mesh.rollback();
+    }
+    false
+}
+
+/// Tries changes of topology near `t`, best first, and keeps the first that
+/// settles everything, or else the one that lowers the energy most.
+fn search(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
+    let corners = work.mesh.tri[t as usize].v;
+    let mut changes = Vec::new();
+    load_rings(work, &corners, if wide { 2 } else { 1 });
+    let around = work.patch.vertices().to_vec();
+    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }
+        .find(t, &around);
+    let mut ranked: Vec<(f64, Action)> = Vec::new();
+    for change in changes.into_iter().take(most) {
+        let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else {
+            continue;
+        };
+        if keep_if_solved(work, state) {
+            return;
+        }
+        work.mesh.rollback();
+        ranked.push((state.energy - before, change.action));
+    }
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut best: Option<(f64, Action, usize)> = None;
+    for &(_, action) in ranked.iter().take(FINALISTS) {
+        for r in 2..=rings.max(2) {
+            let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
+                continue;
+            };
+            if keep_if_solved(work, state) {
+                return;
+            }
+            work.mesh.rollback();
+            let gain = state.energy - before;
+            if state.energy < KEEP_BELOW * before && best.is_none_or(|b| gain < b.0) {
+                best = Some((gain, action, r));
+            }
+        }
+    }
+    if let Some((_, action, r)) = best
+        && attempt(work, action, corners, r, FINISH).is_some()
+    {
+        work.commit();
+    }
+}
+
+fn keep_if_solved(work: &mut Work, state: State) -> bool {
+    work.stats.repairs[0] += 1;
+    let solved = state.solved && work.changes_hold();
+    if solved {
+        work.stats.repairs[1] += 1;
+        work.commit();
+    }
+    solved
+}
+
+/// Makes a change and settles so many rings around it; returns the energy of
+/// the same region before and its state after. The change stays in the
+/// journal.
+fn attempt(
+    work: &mut Work,
+    action: Action,
+    corners: [u32; 3],
+    rings: usize,
+    effort: Effort,
+) -> Option<(f64, State)> {
+    let mut verts = Vec::new();
+    action.region(&work.mesh, &mut verts);
+    let join = |verts: &mut Vec<u32>| {
+        for v in corners {
+            if !verts.contains(&v) {
+                verts.push(v);
+            }
+        }
+    };
+    join(&mut verts);
+    load_rings(work, &verts, rings);
+    let before = work.patch.state(work.limits).energy;
+    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+        work.mesh.rollback();
+        return None;
+    }
+    join(&mut verts);
+    verts.retain(|&v| work.mesh.alive(v));
+    load_rings(work, &verts, rings);
+    Some((before, work.solve(effort)))
+}
+
+/// Removes vertices near `t`, small neighbourhoods first, as long as `t` is bad.
+fn thin(work: &mut Work, t: u32) {
+    let corners = work.mesh.tri[t as usize].v;
+    load_rings(work, &corners, 3);
+    let mut near: Vec<(f64, u32)> =
+        work.patch.movable().iter().map(|&v| (work.mesh.shortest_edge(v), v)).collect();
+    near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    for (_, v) in near {
+        if work.mesh.alive(v) && try_remove(work, v, THIN) && !work.is_bad(t) {
+            return;
+        }
+    }
+}
+
+/// Whether `t` joins three vertices that never move.
+fn has_no_room(mesh: &Mesh, t: u32) -> bool {
+    mesh.tri[t as usize].v.iter().all(|v| mesh.motion[*v as usize] == Motion::Fixed)
+}
+
+/// Splits the three sides of `t`; kept if the energy stays below `below` or
+/// what it was. New vertices give room to rounds to come.
+fn refine(work: &mut Work, t: u32, below: f64) {
+    let mut verts = work.mesh.tri[t as usize].v.to_vec();
+    load_rings(work, &verts, 3);
+    let before = work.patch.state(work.limits).energy;
+    let mut made = Vec::new();
+    for i in 0..3 {
+        let (a, b) = (verts[i], verts[(i + 1) % 3]);
+        // The first split replaces `t`: find the side by its ends.
+        if let Some((t, k)) = work.mesh.side(a, b) {
+            verts.extend(work.mesh.split_edge(t, k, &mut made));
+        }
+    }
+    load_rings(work, &verts, 3);
+    if work.solve(FINISH).energy < below.max(before) {
+        work.commit();
+    } else {
+        work.mesh.rollback();
+    }
+}

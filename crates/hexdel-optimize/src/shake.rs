@@ -1,0 +1,112 @@
+//! Random neutral changes that make removals possible.
+//!
+//! When no single removal succeeds any more, the mesh is jammed: its degrees
+//! fit the angles nowhere else. Moving one vertex to another place nearby, or
+//! exchanging one edge, keeps the number of triangles and moves the irregular
+//! degrees; now and then that lets a vertex go.
+
+use crate::change::{Action, Change, Finder, apply};
+use crate::decimate::{Pass, settle, try_remove};
+use crate::refill::{MAX_CORNERS, degree_cost};
+use crate::work::Work;
+
+/// Rounds of shakes.
+pub(crate) const SHAKES: usize = 20;
+
+/// Shakes tried in one round for each vertex.
+const SHARE: f64 = 0.5;
+
+/// Refills and exchanges that cost more are not tried.
+const MAX_COST: f64 = 1.0;
+
+const SHAKE: Pass = Pass { rings: 3, refills: 1, max_cost: 0.6, near: 0.0 };
+const REMOVE: Pass = Pass { rings: 3, refills: 1, max_cost: 0.55, near: 0.01 };
+
+/// One round.
+pub(crate) fn shake(work: &mut Work) {
+    let vertices = work.mesh.pos.len();
+    for _ in 0..(SHARE * vertices as f64) as usize {
+        let v = work.random.below(vertices) as u32;
+        if !work.mesh.alive(v) || work.mesh.is_fixed(v) {
+            continue;
+        }
+        work.stats.shakes[0] += 1;
+        let kept = if work.random.below(2) == 0 { exchange(work, v) } else { transplant(work, v) };
+        if kept && work.changes_hold() {
+            work.stats.shakes[1] += 1;
+            work.commit();
+            remove_near(work);
+        } else {
+            work.mesh.rollback();
+        }
+    }
+}
+
+/// Exchanges a random edge at `v` or opposite of it.
+fn exchange(work: &mut Work, v: u32) -> bool {
+    let (mut tris, mut ring) = (Vec::new(), Vec::new());
+    work.mesh.ring(v, &mut tris, &mut ring);
+    let t = tris[work.random.below(tris.len())];
+    let k = work.random.below(3);
+    let Some((_, d)) = work.mesh.diamond(t, k) else {
+        return false;
+    };
+    let mut cost = 0.0;
+    for (i, w) in d.into_iter().enumerate() {
+        let (sector, n) = (work.mesh.sector[w as usize], work.mesh.degree(w));
+        let after = if i == 0 || i == 3 { n + 1 } else { n - 1 };
+        cost += degree_cost(work.limits, sector, after) - degree_cost(work.limits, sector, n);
+    }
+    cost < MAX_COST && work.mesh.flip(t, k) && settle(work, &d, SHAKE)
+}
+
+/// Removes `v` and inserts a vertex somewhere near.
+fn transplant(work: &mut Work, v: u32) -> bool {
+    let (mut tris, mut ring, mut new) = (Vec::new(), Vec::new(), Vec::new());
+    if !work.mesh.ring(v, &mut tris, &mut ring) || ring.len() > MAX_CORNERS {
+        return false;
+    }
+    let mut chosen = Vec::new();
+    work.refills.choose(&work.mesh, work.limits, &ring, true, 4, &mut chosen);
+    chosen.retain(|c| c.0 < MAX_COST);
+    if chosen.is_empty() {
+        return false;
+    }
+    let (_, refill) = chosen[work.random.below(chosen.len())];
+    if !work.refills.triangles(&work.mesh, &ring, true, refill, &mut new) {
+        return false;
+    }
+    work.mesh.replace(&tris, &new, &mut Vec::new());
+    let Some(action) = insertion_near(work, ring[0]) else {
+        return false;
+    };
+    let mut verts = Vec::new();
+    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+        return false;
+    }
+    let near: Vec<u32> = ring.into_iter().filter(|w| !verts.contains(w)).collect();
+    verts.extend(near);
+    settle(work, &verts, SHAKE)
+}
+
+/// One of the best insertions at a random triangle near `v`.
+fn insertion_near(work: &mut Work, v: u32) -> Option<Action> {
+    let (mut tris, mut ring) = (Vec::new(), Vec::new());
+    work.mesh.ring(v, &mut tris, &mut ring);
+    let t = tris[work.random.below(tris.len())];
+    let mut changes: Vec<Change> = Vec::new();
+    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }
+        .find_insertions(t);
+    let best = changes.len().min(3);
+    (best > 0).then(|| changes[work.random.below(best)].action)
+}
+
+/// Tries to remove what the shake may have loosened.
+fn remove_near(work: &mut Work) {
+    let near: Vec<u32> = work.patch.vertices().to_vec();
+    for v in near {
+        if work.mesh.alive(v) && !work.mesh.is_fixed(v) {
+            try_remove(work, v, REMOVE);
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! One mesh under work: the state the operations share.
+
+use crate::angles::Limits;
+use crate::flip::{flip_patch, wants_flip};
+use crate::mesh::Mesh;
+use crate::options::Stats;
+use crate::patch::{Patch, State, Sweeps};
+use crate::random::Random;
+use crate::refill::Refills;
+
+/// How long one patch is worked on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    pub(crate) sweeps: Sweeps,
+    /// How often the sweeps are repeated after flips.
+    pub(crate) turns: usize,
+    /// Energy below which Newton steps follow, square radians.
+    pub(crate) near: f64,
+    /// Newton steps.
+    pub(crate) steps: usize,
+}
+
+/// A mesh, what it must become, and reused storage.
+pub(crate) struct Work<'a> {
+    pub(crate) mesh: Mesh,
+    pub(crate) limits: &'a Limits,
+    pub(crate) refills: &'a Refills,
+    pub(crate) patch: Patch,
+    pub(crate) random: Random,
+    /// As in `Soup::failed`; as long as the mesh's vertices after a commit.
+    pub(crate) failed: Vec<u8>,
+    pub(crate) stats: Stats,
+    pub(crate) scratch: Scratch,
+    /// Vertices handed to the patch.
+    seeds: Vec<u32>,
+}
+
+/// Storage reused between operations.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    pub(crate) tris: Vec<u32>,
+    pub(crate) ring: Vec<u32>,
+    pub(crate) made: Vec<u32>,
+    pub(crate) chosen: Vec<(f64, usize)>,
+    pub(crate) new: Vec<[u32; 3]>,
+}
+
+impl<'a> Work<'a> {
+    pub(crate) fn new(
+        mesh: Mesh,
+        limits: &'a Limits,
+        refills: &'a Refills,
+        failed: Vec<u8>,
+        seed: u64,
+    ) -> Self {
+        Self {
+            mesh,
+            limits,
+            refills,
+            patch: Patch::default(),
+            random: Random::new(seed),
+            failed,
+            stats: Stats::default(),
+            scratch: Scratch::default(),
+            seeds: Vec::new(),
+        }
+    }
+
+    /// Loads the patch around `verts`.
+    pub(crate) fn load(&mut self, verts: &[u32]) {
+        self.patch.load(&self.mesh, verts);
+    }
+
+    /// Loads the patch whose movable vertices are all of the loaded one's.
+    pub(crate) fn grow(&mut self) {
+        self.seeds.clear();
+        self.seeds.extend_from_slice(self.patch.vertices());
+        self.patch.load(&self.mesh, &self.seeds);
+    }
+
+    /// Loads the same movable vertices after a change of topology.
+    fn reload(&mut self) {
+        self.seeds.clear();
+        self.seeds.extend_from_slice(self.patch.movable());
+        self.patch.load(&self.mesh, &self.seeds);
+    }
+
+    /// Moves and flips the loaded patch in turn until it is solved, nothing
+    /// flips, or the effort is spent. Motion comes first: flipping first would
+    /// undo the choice of degrees that made the patch promising.
+    pub(crate) fn solve(&mut self, effort: Effort) -> State {
+        let mut state = State { energy: f64::INFINITY, solved: false };
+        for turn in 0..effort.turns {
+            if turn > 0 {
+                self.patch.store(&mut self.mesh);
+                if flip_patch(&mut self.mesh, &self.patch) == 0 {
+                    break;
+                }
+                self.reload();
+            }
+            self.patch.project(self.limits, effort.sweeps);
+            state = self.patch.state(self.limits);
+            if state.solved {
+                break;
+            }
+        }
+        if !state.solved && state.energy < effort.near {
+            state = self.patch.newton(self.limits, effort.steps);
+        }
+        self.patch.store(&mut self.mesh);
+        state
+    }
+
+    /// Whether everything changed since the last commit keeps the bounds, and
+    /// the patch is Delaunay where the bounds do not imply it.
+    pub(crate) fn changes_hold(&self) -> bool {
+        let mut ok = true;
+        self.mesh.changed(|t| ok = ok && self.is_good(t));
+        ok && (!self.limits.check_delaunay || self.patch_is_delaunay())
+    }
+
+    fn patch_is_delaunay(&self) -> bool {
+        let wrong =
+            |t: u32, k: usize| self.mesh.diamond(t, k).is_some_and(|(_, d)| wants_flip(&self.mesh, d));
+        !self.patch.triangles().iter().any(|&t| (0..3).any(|k| wrong(t, k)))
+    }
+
+    /// Makes the changes final.
+    pub(crate) fn commit(&mut self) {
+        self.mesh.commit();
+        self.failed.resize(self.mesh.pos.len(), 0);
+        for &v in self.patch.vertices() {
+            self.failed[v as usize] = 0;
+        }
+        debug_assert_eq!(self.mesh.validate(), Ok(()));
+    }
+
+    /// Whether triangle `t` is alive and outside the bounds.
+    pub(crate) fn is_bad(&self, t: u32) -> bool {
+        self.mesh.tri[t as usize].alive() && !self.is_good(t)
+    }
+
+    fn is_good(&self, t: u32) -> bool {
+        self.limits.loose(&self.mesh.measure(t))
+    }
+
+    /// Triangles outside the bounds, ascending.
+    pub(crate) fn bad(&self) -> Vec<u32> {
+        self.mesh.live().filter(|&t| !self.is_good(t)).collect()
+    }
+}

@@ -1,0 +1,83 @@
+//! The compact method: a mesh of the grid goes through the optimiser.
+//!
+//! What vertices may do follows from where they lie: input points and the
+//! corners of the domain stay, vertices on its sides slide, all others are
+//! free. The optimiser itself is left to `hexdel-optimize`.
+
+use crate::error::Error;
+use hexdel_classify::Dual;
+use hexdel_geom::{AngleBounds, Monitor, Phase, VertexId};
+use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+/// What the optimiser is told.
+pub(crate) fn options(bounds: AngleBounds, effort: Effort, budget: Option<Duration>) -> Options {
+    let options = Options::new(bounds, effort);
+    match budget {
+        Some(budget) => options.with_budget(budget),
+        None => options,
+    }
+}
+
+/// Optimises a mesh of the grid in place; false if angles are left outside the
+/// bounds, be it only by rounding.
+pub(crate) fn optimize_dual(
+    dual: &mut Dual,
+    options: &Options,
+    monitor: &dyn Monitor,
+) -> Result<bool, Error> {
+    let mut fixed = vec![false; dual.mesh.vertices.len()];
+    for v in &dual.vertex_of_occupant {
+        fixed[v.index()] = true;
+    }
+    let kinds = kinds_of(&dual.mesh, |v: VertexId| fixed[v.index()]);
+    let mesh = std::mem::take(&mut dual.mesh);
+    let (optimized, reached) = match optimize(mesh, &kinds, options, monitor) {
+        Ok(optimized) => (optimized, true),
+        Err(OptimizeError::Unreached { best, .. }) => (*best, false),
+        Err(OptimizeError::Cancelled(c)) => return Err(Error::Cancelled(c)),
+        Err(error) => return Err(Error::Optimize(error)),
+    };
+    let Optimized { mesh, vertices, .. } = optimized;
+    dual.mesh = mesh;
+    for v in &mut dual.vertex_of_occupant {
+        *v = vertices[v.index()].expect("fixed vertices are never removed");
+    }
+    Ok(reached)
+}
+
+/// A monitor to whom work that starts anew looks like more of the same phase.
+pub(crate) struct Again<'a> {
+    monitor: &'a dyn Monitor,
+    /// Units of optimisation that earlier starts took.
+    before: u64,
+    /// Units of optimisation so far, all starts together.
+    done: AtomicU64,
+}
+
+impl<'a> Again<'a> {
+    pub(crate) fn new(monitor: &'a dyn Monitor) -> Self {
+        Self { monitor, before: 0, done: AtomicU64::new(0) }
+    }
+
+    /// Work starts anew.
+    pub(crate) fn restart(&mut self) {
+        self.before = *self.done.get_mut() + 1;
+    }
+}
+
+impl Monitor for Again<'_> {
+    fn progress(&self, phase: Phase, done: u64, total: u64) {
+        if phase == Phase::Optimize {
+            self.done.store(self.before + done, Ordering::Relaxed);
+            self.monitor.progress(phase, self.before + done, self.before + total);
+        } else if phase > Phase::Optimize || self.before == 0 {
+            self.monitor.progress(phase, done, total);
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        self.monitor.cancelled()
+    }
+}
