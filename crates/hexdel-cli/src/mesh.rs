@@ -22,7 +22,7 @@ use std::time::Duration;
     Examples:\n  \
     hexdel mesh cities.csv -o cities.ele -o cities.svg --grid\n  \
     hexdel mesh cities.csv -o cities.vtu --method simple --report cities.json\n  \
-    hexdel mesh cities.csv -o cities.ele --method compact --min-angle 30")]
+    hexdel mesh cities.csv -o cities.vtu --method compact --report cities.json")]
 pub(crate) struct Args {
     /// File of points
     input: PathBuf,
