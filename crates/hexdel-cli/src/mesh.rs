@@ -21,7 +21,6 @@ use std::time::Duration;
     All files are written or none; missing folders are made.\n\n\
     Examples:\n  \
     hexdel mesh cities.csv -o cities.ele -o cities.svg --grid\n  \
-    hexdel mesh cities.csv -o cities.vtu --method simple --report cities.json\n  \
     hexdel mesh cities.csv -o cities.vtu --method compact --report cities.json")]
 pub(crate) struct Args {
     /// File of points
