@@ -45,10 +45,11 @@ pub fn settle_rounding(mesh: &mut TriMesh, bounds: AngleBounds, free: impl Fn(Ve
     if mesh.triangles.iter().any(|&t| !well_formed(t, n)) {
         return 0;
     }
+    let limits = Limits::new(bounds);
     let mut past: Vec<TriangleId> = (0..mesh.triangles.len())
         .into_par_iter()
         .map(TriangleId::new)
-        .filter(|&t| excess(mesh.corners(t), bounds) > 0.0)
+        .filter(|&t| limits.excess(mesh.corners(t)) > 0.0)
         .collect();
     past.truncate(MAX_TRIANGLES);
     if past.is_empty() {
@@ -59,13 +60,13 @@ pub fn settle_rounding(mesh: &mut TriMesh, bounds: AngleBounds, free: impl Fn(Ve
         let mut touched = past.clone();
         for &t in &past {
             for v in mesh.triangles[t.index()] {
-                if excess(mesh.corners(t), bounds) > 0.0 && free(v) {
-                    touched.extend(improve(mesh, &incidence, v, bounds));
+                if limits.excess(mesh.corners(t)) > 0.0 && free(v) {
+                    touched.extend(improve(mesh, &incidence, v, &limits));
                 }
             }
         }
         // What is better for the worst angle may be worse for another.
-        touched.retain(|&t| excess(mesh.corners(t), bounds) > 0.0);
+        touched.retain(|&t| limits.excess(mesh.corners(t)) > 0.0);
         touched.sort_unstable();
         touched.dedup();
         past = touched;
@@ -75,10 +76,10 @@ pub fn settle_rounding(mesh: &mut TriMesh, bounds: AngleBounds, free: impl Fn(Ve
 
 /// Moves a vertex to the nearest place at which no angle around it is past the
 /// bounds, or else to the best. Returns the triangles around it.
-fn improve(mesh: &mut TriMesh, incidence: &Incidence, v: VertexId, bounds: AngleBounds) -> Vec<TriangleId> {
+fn improve(mesh: &mut TriMesh, incidence: &Incidence, v: VertexId, limits: &Limits) -> Vec<TriangleId> {
     let star: Vec<TriangleId> =
         incidence.around(v.index()).iter().map(|&t| TriangleId::new(t as usize)).collect();
-    let worst = |mesh: &TriMesh| star.iter().map(|&t| excess(mesh.corners(t), bounds)).fold(0.0, f64::max);
+    let worst = |mesh: &TriMesh| star.iter().map(|&t| limits.excess(mesh.corners(t))).fold(0.0, f64::max);
     let from = mesh.vertices[v.index()];
     let largest = star
         .iter()
@@ -99,29 +100,50 @@ fn improve(mesh: &mut TriMesh, incidence: &Incidence, v: VertexId, bounds: Angle
     star
 }
 
-/// By how many degrees the worst angle of a triangle is past the bounds and
-/// their tolerance; zero if none is.
-fn excess(corners: [DVec2; 3], bounds: AngleBounds) -> f64 {
-    let (low, high) = (bounds.min_deg() - ANGLE_TOLERANCE_DEG, bounds.max_deg() + ANGLE_TOLERANCE_DEG);
-    if surely_within(corners, low, high) {
-        return 0.0;
-    }
-    angles_deg(corners).into_iter().fold(0.0, |worst: f64, a| worst.max(low - a).max(a - high))
+/// Bounds with their tolerance, in terms that are cheap to compare with.
+struct Limits {
+    low_deg: f64,
+    high_deg: f64,
+    /// Cotangents below this belong to angles above `low_deg` by some room.
+    most: f64,
+    /// Cotangents above this belong to angles below `high_deg` by some room.
+    least: f64,
 }
 
-/// Whether all angles are within bounds by a tenth of a degree, without an arc
-/// tangent.
-fn surely_within([a, b, c]: [DVec2; 3], low: f64, high: f64) -> bool {
-    const ROOM_DEG: f64 = 0.1;
-    let (ab, bc, ca) = (b - a, c - b, a - c);
-    let cross = -ab.perp_dot(ca);
-    let dots = [-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)];
-    let cot = |deg: f64| {
-        let (sin, cos) = libm::sincos(deg.to_radians());
-        cos / sin
-    };
-    let (most, least) = (cot((low + ROOM_DEG).max(ROOM_DEG)), cot((high - ROOM_DEG).min(180.0 - ROOM_DEG)));
-    cross > 0.0 && dots.into_iter().all(|dot| dot < most * cross && dot > least * cross)
+impl Limits {
+    /// Far more than the arithmetic on cotangents is off by, in degrees.
+    const ROOM_DEG: f64 = 1e-9;
+
+    fn new(bounds: AngleBounds) -> Self {
+        let (low_deg, high_deg) =
+            (bounds.min_deg() - ANGLE_TOLERANCE_DEG, bounds.max_deg() + ANGLE_TOLERANCE_DEG);
+        let cot = |deg: f64| {
+            let (sin, cos) = libm::sincos(deg.clamp(Self::ROOM_DEG, 180.0 - Self::ROOM_DEG).to_radians());
+            cos / sin
+        };
+        let (most, least) = (cot(low_deg + Self::ROOM_DEG), cot(high_deg - Self::ROOM_DEG));
+        Self { low_deg, high_deg, most, least }
+    }
+
+    /// By how many degrees the worst angle of a triangle is past the limits;
+    /// zero if none is.
+    #[inline]
+    fn excess(&self, corners: [DVec2; 3]) -> f64 {
+        if self.surely_hold(corners) {
+            return 0.0;
+        }
+        let past = |a: f64| (self.low_deg - a).max(a - self.high_deg);
+        angles_deg(corners).into_iter().fold(0.0, |worst: f64, a| worst.max(past(a)))
+    }
+
+    /// Whether all angles are within the limits, without an arc tangent.
+    #[inline]
+    fn surely_hold(&self, [a, b, c]: [DVec2; 3]) -> bool {
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let cross = -ab.perp_dot(ca);
+        let dots = [-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)];
+        cross > 0.0 && dots.into_iter().all(|dot| dot < self.most * cross && dot > self.least * cross)
+    }
 }
 
 /// Moves to try, shortest first.
@@ -149,12 +171,13 @@ mod tests {
     #[test]
     fn right_angles_spoilt_by_rounding_are_mended() {
         let bounds = AngleBounds::new(20.0, 90.0).unwrap();
+        let limits = Limits::new(bounds);
         let mut spoilt = 0;
         for i in 0..50 {
             let at = DVec2::new(0.1 + 0.013 * f64::from(i), 0.7 - 0.009 * f64::from(i));
             let mut mesh = rounded(at);
             let worst = |mesh: &TriMesh| {
-                let all = (0..5).map(|t| excess(mesh.corners(TriangleId::new(t)), bounds));
+                let all = (0..5).map(|t| limits.excess(mesh.corners(TriangleId::new(t))));
                 all.fold(0.0, f64::max)
             };
             spoilt += usize::from(worst(&mesh) > 0.0);

@@ -401,6 +401,7 @@ impl Mesher {
         let compact = self.method == Method::Compact;
         let kept = if compact { bounds } else { self.method.bounds() };
         let free = |v: VertexId| !fixed[v.index()];
+        settle_rounding(&mut dual.mesh, bounds, free);
         restore_delaunay(&mut dual.mesh, kept, free)?;
         let total = dual.mesh.triangles.len() as u64;
         check(monitor)?;
@@ -410,12 +411,7 @@ impl Mesher {
             min_edge: placement.shortest_edge.filter(|_| !compact),
             ..CertifyOptions::default()
         };
-        let mut certificate = certify(&dual.mesh, &options);
-        if certificate.rounding_limited > 0 {
-            settle_rounding(&mut dual.mesh, bounds, free);
-            restore_delaunay(&mut dual.mesh, kept, free)?;
-            certificate = certify(&dual.mesh, &options);
-        }
+        let certificate = certify(&dual.mesh, &options);
         if certificate.holds() {
             // Not before: what does not hold may lead to another start.
             monitor.progress(Phase::Certify, total, total);
