@@ -40,6 +40,11 @@ pub(crate) enum Failure {
     ReplacesInput { file: PathBuf },
     #[error("{}: two outputs of the same name", file.display())]
     Twice { file: PathBuf },
+    #[error("{of} tells no levels or classes of hexagons to colour by")]
+    #[diagnostic(help(
+        "`hexdel mesh INPUT -o x.svg --colour level` knows them, by the methods templates and simple"
+    ))]
+    NoHexagons { of: String },
     #[error("standard output: {0}")]
     Stdout(io::Error),
     #[error("no JSON of the figures: {0}")]

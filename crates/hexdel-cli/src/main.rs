@@ -1,8 +1,8 @@
-//! The program `hexdel`: meshes files of points, checks meshes, makes test
-//! points.
+//! The program `hexdel`: meshes files of points, checks and draws meshes, makes
+//! test points.
 //!
-//! One module per command ([`mesh`], [`check`], [`generate`]), and what they
-//! share: which files are written and when ([`outputs`]), the bar on a terminal
+//! One module per command ([`mesh`], [`check`], [`plot`], [`generate`]), and what
+//! they share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
@@ -12,6 +12,7 @@ mod generate;
 mod input;
 mod mesh;
 mod outputs;
+mod plot;
 mod progress;
 
 use clap::{Parser, Subcommand};
@@ -37,6 +38,7 @@ struct Cli {
 enum Command {
     Mesh(mesh::Args),
     Check(check::Args),
+    Plot(plot::Args),
     Generate(generate::Args),
 }
 
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Plot(args) => plot::run(&args),
         Command::Generate(args) => generate::run(&args),
     };
     exit::finish(outcome)

@@ -3,25 +3,32 @@
 use crate::exit::{Failure, Outcome, Verdict, print};
 use crate::input::read_points;
 use crate::outputs::{Content, Outputs};
+use crate::plot::{Colour, PictureArgs};
 use crate::progress::Progress;
 use clap::ValueEnum;
 use hexdel::geom::BoundsError;
 use hexdel::{AngleBounds, Effort, Mesher, Method, Triangulation};
-use hexdel_io::{MeshView, Overlay, Picture, write_mesh};
+use hexdel_io::{ColourBy, Groups, MeshView, Overlay, write_mesh};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
 
 /// Mesh points: every angle between 43.9 and 90 degrees, Delaunay, certified
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    mut_arg("colour", |arg| arg.hide(true)),
+    mut_arg("histogram", |arg| arg.hide(true)),
+    mut_arg("zoom", |arg| arg.hide(true)),
+    mut_arg("size", |arg| arg.hide(true)),
+    after_help = "\
     Formats, by extension:\n  \
     input   .node, .poly (points only so far), .csv, .tsv, .xyz, .txt, .pts\n  \
-    output  .ele (with the .node beside it), .vtu, .ron, and pictures, .svg\n\
+    output  .ele (with the .node beside it), .vtu, .ron, and pictures, .svg, .png\n\
     All files are written or none; missing folders are made.\n\n\
     Examples:\n  \
     hexdel mesh cities.csv -o cities.ele -o cities.svg --grid\n  \
-    hexdel mesh cities.csv -o cities.vtu --method compact --report cities.json")]
+    hexdel mesh cities.csv -o cities.vtu --method compact --report cities.json"
+)]
 pub(crate) struct Args {
     /// File of points
     input: PathBuf,
@@ -56,9 +63,11 @@ pub(crate) struct Args {
     /// Write the figures of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Show the hexagons in pictures
+    /// Show the hexagons in pictures; `hexdel plot --help` has more options of theirs
     #[arg(long)]
     grid: bool,
+    #[command(flatten)]
+    picture: PictureArgs,
     /// Print nothing but warnings and errors
     #[arg(short, long)]
     quiet: bool,
@@ -93,6 +102,9 @@ fn radius(text: &str) -> Result<f64, String> {
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
+    if args.picture.colour.is_some_and(Colour::needs_hexagons) && matches!(args.method, MethodName::Compact) {
+        return Err(no_hexagons());
+    }
     let points = read_points(&args.input)?;
     let mesher = args.mesher()?;
     let progress = Progress::new(args.quiet);
@@ -160,8 +172,13 @@ fn write(
     inputs: &[Option<u32>],
 ) -> Result<(), Failure> {
     let overlay: Option<Overlay> = args.grid.then(|| made.overlay());
-    let mut picture = Picture::default();
+    let groups = groups(args.picture.colour, made)?;
+    let mut picture = args.picture.picture(made.certificate.bounds);
     picture.overlay = overlay.as_ref();
+    picture.fill_triangles = overlay.is_none() || args.picture.colour.is_some();
+    if let Some(groups) = &groups {
+        picture.colour_by = ColourBy::Groups(groups);
+    }
     let view = MeshView::new(&made.mesh)
         .with_input_indices(inputs)
         .with_certificate(&made.certificate)
@@ -173,6 +190,20 @@ fn write(
             std::fs::write(path, &report).map_err(|source| Failure::Output { file: path.to_owned(), source })
         }
     })
+}
+
+/// The groups of triangles that colours tell apart, if they are about hexagons.
+fn groups(colour: Option<Colour>, made: &Triangulation) -> Result<Option<Groups>, Failure> {
+    let groups = match colour {
+        Some(Colour::Level) => made.levels(),
+        Some(Colour::Class) => made.classes(),
+        _ => return Ok(None),
+    };
+    groups.map(Some).ok_or_else(no_hexagons)
+}
+
+fn no_hexagons() -> Failure {
+    Failure::NoHexagons { of: "the compact method".to_owned() }
 }
 
 /// What is worth knowing at a glance.

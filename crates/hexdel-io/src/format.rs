@@ -42,14 +42,34 @@ pub enum MeshFormat {
     Ron,
     /// A picture, `.svg`. Written only.
     Svg,
+    /// A picture, `.png`. Written only, with the feature `png`.
+    #[cfg(feature = "png")]
+    Png,
 }
 
 impl MeshFormat {
     /// The extensions that meshes are written to, for messages.
-    pub const EXTENSIONS: &str = ".node, .ele, .vtu, .ron, .svg";
+    pub const EXTENSIONS: &str = if cfg!(feature = "png") {
+        ".node, .ele, .vtu, .ron, .svg, .png"
+    } else {
+        ".node, .ele, .vtu, .ron, .svg"
+    };
+
+    /// The extensions of pictures, for messages.
+    pub const PICTURES: &str = if cfg!(feature = "png") { ".svg, .png" } else { ".svg" };
 
     /// The extensions that meshes are read from, for messages.
     pub const READABLE: &str = ".node, .ele, .ron";
+
+    /// Whether it is a picture.
+    pub fn is_picture(self) -> bool {
+        match self {
+            Self::Svg => true,
+            #[cfg(feature = "png")]
+            Self::Png => true,
+            _ => false,
+        }
+    }
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
@@ -58,6 +78,8 @@ impl MeshFormat {
             "vtu" => Self::Vtu,
             "ron" => Self::Ron,
             "svg" => Self::Svg,
+            #[cfg(feature = "png")]
+            "png" => Self::Png,
             _ => return None,
         })
     }

@@ -12,7 +12,7 @@
 //! | `.node` + `.ele` | Triangle's meshes | [`read_mesh`] | [`write_mesh`] |
 //! | `.ron` | [`TriMesh`](hexdel_geom::TriMesh) in Rusty Object Notation | [`read_mesh`] | [`write_mesh`] |
 //! | `.vtu` | VTK's unstructured grids | | [`write_mesh`] |
-//! | `.svg` | pictures | | [`write_mesh`] |
+//! | `.svg` `.png` | pictures | | [`write_mesh`] |
 //!
 //! Readers trust nothing: every malformed file is a [`ReadError`] with file and
 //! line, and memory grows with what a file holds, not with what it claims. Lines
@@ -23,13 +23,23 @@
 
 mod angles;
 mod atomic;
+mod canvas;
+mod colour;
 mod error;
 mod format;
+mod frame;
+#[cfg(feature = "png")]
+mod glyphs;
+mod histogram;
 mod legend;
 mod lines;
 mod mesh_ron;
 mod picture;
+#[cfg(feature = "png")]
+mod png;
 mod read;
+mod scene;
+mod survey;
 mod svg;
 mod table;
 mod text;
@@ -39,9 +49,10 @@ mod view;
 mod vtu;
 mod write;
 
+pub use colour::Rgb;
 pub use error::{ReadError, WriteError};
 pub use format::{MeshFormat, PointFormat};
-pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
+pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
 pub use read::{read_mesh, read_mesh_from, read_points, read_points_from};
 pub use view::{MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_to, write_points};

@@ -11,7 +11,7 @@ use crate::format::{MeshFormat, PointFormat};
 use crate::read::beside;
 use crate::text::TextWriter;
 use crate::view::MeshView;
-use crate::{mesh_ron, svg, triangle_out, vtu};
+use crate::{mesh_ron, picture, svg, triangle_out, vtu};
 
 /// Writes a mesh, or its picture, in the format that the extension stands for.
 ///
@@ -33,7 +33,7 @@ use crate::{mesh_ron, svg, triangle_out, vtu};
 /// # Complexity
 ///
 /// Linear in the size of the mesh; extra memory is a constant for `.node`, `.ele`,
-/// `.vtu` and `.ron`, and eleven bytes per triangle for pictures.
+/// `.vtu` and `.ron`, and 12 bytes per triangle for pictures.
 pub fn write_mesh(path: impl AsRef<Path>, view: &MeshView<'_>) -> Result<(), WriteError> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -107,14 +107,16 @@ fn stream_writer(format: MeshFormat) -> Option<StreamWriter> {
         MeshFormat::Vtu => Some(vtu::write_vtu),
         MeshFormat::Ron => Some(mesh_ron::write_ron),
         MeshFormat::Svg => Some(svg::write_svg),
+        #[cfg(feature = "png")]
+        MeshFormat::Png => Some(crate::png::write_png),
         MeshFormat::NodeEle => None,
     }
 }
 
 fn check(format: MeshFormat, view: &MeshView<'_>, name: &str) -> Result<(), WriteError> {
     view.check(name)?;
-    if format == MeshFormat::Svg {
-        view.picture.check(name)?;
+    if format.is_picture() {
+        picture::check(view, name)?;
     }
     Ok(())
 }

@@ -6,4 +6,5 @@
 mod check;
 mod generate;
 mod mesh;
+mod plot;
 mod support;
