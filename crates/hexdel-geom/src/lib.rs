@@ -18,6 +18,7 @@
 //! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
 //! | [`rounding`] | [`settle_rounding`]: moves by units in the last place where rounding spoilt an angle |
 //! | [`voronoi`] | [`Voronoi`]: circumcentres, cells, control volumes and cotangent weights |
+//! | [`segments`] | [`check_segments`]: whether segments are unions of edges |
 //! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
 
 pub mod bounds;
@@ -32,6 +33,7 @@ pub mod predicates;
 pub mod pslg;
 pub mod quality;
 pub mod rounding;
+pub mod segments;
 pub mod voronoi;
 
 mod double_double;
@@ -52,4 +54,5 @@ pub use points::{PointSet, PointsError};
 pub use predicates::{incircle, orient2d};
 pub use pslg::{Pslg, PslgLayoutError, Region};
 pub use rounding::settle_rounding;
+pub use segments::{MissingSegment, SegmentCheck, check_segments};
 pub use voronoi::{Voronoi, VoronoiEdge, VoronoiError, VoronoiSummary};

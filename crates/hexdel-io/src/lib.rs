@@ -46,5 +46,5 @@ pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
 pub use read::{read_mesh, read_mesh_from, read_points, read_points_from};
-pub use view::MeshView;
+pub use view::{MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_to, write_points};
