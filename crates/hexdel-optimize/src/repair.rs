@@ -92,7 +92,7 @@ pub(crate) fn search(work: &mut Work, (from, to): (usize, usize)) {
 }
 
 /// Loads the patch of so many rings around triangle `t`.
-fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
+pub(crate) fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
     work.load(verts);
     for _ in 1..rings {
         work.grow();

@@ -17,6 +17,7 @@ use crate::partition::{Part, Seams, Cuts, extract, merge, partition, spots};
 use crate::random::Random;
 use crate::refill::Refills;
 use crate::repair::{self, repair, search};
+use crate::rescue::rescue;
 use crate::shake::{SHAKES, shake};
 use crate::work::Work;
 
@@ -72,6 +73,12 @@ const STANDARD_PASSES: usize = 9;
 /// Rings around bad triangles that are one part, in turn: as far as changes
 /// reach, and some more with each round.
 const SPOT_RINGS: [usize; 4] = [8, 9, 10, 12];
+
+/// The same for rescues.
+const RESCUE_RINGS: [usize; 4] = [10, 14, 18, 24];
+
+/// Of so many triangles one may be bad for a rescue to be tried.
+const HOPELESS: usize = 20;
 
 /// Parts that a thread works on between two looks at clock and monitor: some
 /// tenths of a second.
@@ -130,11 +137,11 @@ impl<'a> Run<'a> {
 
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        let once = repair::FIRST_ROUNDS + repair::SEARCH.len();
+        let once = repair::FIRST_ROUNDS + repair::SEARCH.len() + RESCUE_RINGS.len();
         match self.options.effort {
             Effort::Fast => once + FAST_PASSES,
             Effort::Standard => once + STANDARD_PASSES,
-            Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len(),
+            Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),
         }
     }
 
@@ -168,6 +175,14 @@ impl<'a> Run<'a> {
             let rings = SPOT_RINGS[i.min(SPOT_RINGS.len() - 1)];
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
             self.round_of(&cuts, |work| search(work, steps))?;
+        }
+        for rings in RESCUE_RINGS {
+            let bad: Vec<u32> = self.bad().map(|t| t as u32).collect();
+            if bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+                break;
+            }
+            let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
+            self.round_of(&cuts, rescue)?;
         }
         Ok(())
     }
