@@ -13,6 +13,7 @@
 //! | `schedule` | [`optimize`]: rounds of work over all parts of the mesh |
 //! | `partition` | cuts the mesh into parts, the same for any number of threads |
 //! | `repair` | brings all angles inside |
+//! | `rescue` | refines where repair gives up |
 //! | `decimate` | removes vertices |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill` | candidate changes of topology and their ranking |
@@ -40,6 +41,7 @@ mod patch;
 mod random;
 mod refill;
 mod repair;
+mod rescue;
 mod schedule;
 mod shake;
 mod work;

@@ -64,5 +64,5 @@ pub use hexdel_geom::{
     AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
 };
 pub use hexdel_optimize::Effort;
-pub use mesher::{Mesher, Method, triangulate};
+pub use mesher::{Mesher, Method, Start, triangulate};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

@@ -1,6 +1,6 @@
 //! The result: a mesh, what it promises, and how it was made.
 
-use crate::mesher::Method;
+use crate::mesher::{Method, Start};
 use hexdel_classify::Domain;
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId};
 use hexdel_refine::Refiner;
@@ -17,6 +17,10 @@ pub struct Triangulation {
     pub certificate: Certificate,
     /// How it was made.
     pub method: Method,
+    /// The mesh of the grid that was the start: for [`Method::Compact`] the
+    /// templates' only where the coarse one did not lead to the bounds, or with
+    /// a budget.
+    pub start: Start,
     /// What it covers.
     pub patch: Patch,
     /// Levels used below the coarsest.
@@ -56,6 +60,8 @@ pub struct Seconds {
 pub struct Report<'a> {
     /// How the mesh was made.
     pub method: &'static str,
+    /// The mesh of the grid that was the start.
+    pub start: &'static str,
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
@@ -83,6 +89,11 @@ impl Triangulation {
                 Method::Templates => "templates",
                 Method::Simple => "simple",
                 Method::Compact => "compact",
+            },
+            start: match self.start {
+                Start::Templates => "templates",
+                Start::Simple => "simple",
+                Start::Coarse => "coarse",
             },
             certificate: &self.certificate,
             max_level: self.max_level,
