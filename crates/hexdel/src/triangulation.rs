@@ -17,6 +17,8 @@ pub struct Triangulation {
     pub certificate: Certificate,
     /// How it was made.
     pub method: Method,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// What it covers.
     pub patch: Patch,
     /// Levels used below the coarsest.
@@ -56,6 +58,8 @@ pub struct Seconds {
 pub struct Report<'a> {
     /// How the mesh was made.
     pub method: &'static str,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
@@ -84,6 +88,7 @@ impl Triangulation {
                 Method::Simple => "simple",
                 Method::Compact => "compact",
             },
+            budget_spent: self.budget_spent,
             certificate: &self.certificate,
             max_level: self.max_level,
             domain_radius: self.patch.radius,
