@@ -1,6 +1,6 @@
 //! Options, and the one call.
 
-use crate::compact::{self, Again};
+use crate::compact::{self, Again, Ended};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
@@ -371,16 +371,16 @@ impl Mesher {
         let domain = placement.domain(refiner.grid(), relocation)?;
         let occupants = refiner.occupants();
         let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
-        let mut reached = true;
+        let mut ended = Ended { reached: true, spent: false };
         if self.method == Method::Compact {
             let options = compact::options(bounds, self.effort, self.budget);
-            reached = compact::optimize_dual(&mut dual, &options, monitor)?;
+            ended = compact::optimize_dual(&mut dual, &options, monitor)?;
         }
         let extracted = Instant::now();
 
         check(monitor)?;
         let certificate = match self.finish(&mut dual, bounds, placement, points, monitor) {
-            Err(Error::NotCertified { mesh, certificate }) if !reached => {
+            Err(Error::NotCertified { mesh, certificate }) if !ended.reached => {
                 return Err(Error::Unreached { mesh, certificate });
             }
             done => done?,
@@ -393,6 +393,7 @@ impl Mesher {
             certificate,
             method: self.method,
             start,
+            budget_spent: ended.spent,
             patch: patch(placement, domain),
             max_level: deepest(&refiner) - domain.base_level,
             seconds: Seconds {
