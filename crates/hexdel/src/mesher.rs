@@ -2,6 +2,7 @@
 
 use crate::compact::{self, Again};
 use crate::error::Error;
+use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
 use crate::triangulation::{Patch, Seconds, Triangulation};
 use hexdel_classify::{Domain, Dual, Relocation, extract};
@@ -82,7 +83,10 @@ impl Start {
     }
 }
 
-/// Meshes points, with options.
+/// Meshes points, or a graph of points and segments, with options.
+///
+/// Options say what they are for where it is not both: one that the call has no
+/// use for is [`Error::NotForPoints`] or [`Error::NotForGraphs`].
 ///
 /// ```
 /// use hexdel::{DVec2, Mesher, Method};
@@ -94,13 +98,14 @@ impl Start {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Mesher {
-    method: Method,
-    bounds: Option<AngleBounds>,
-    domain_radius: Option<f64>,
+    pub(crate) method: Method,
+    pub(crate) bounds: Option<AngleBounds>,
+    pub(crate) domain_radius: Option<f64>,
     threads: Option<usize>,
-    without_coarsening: bool,
+    pub(crate) without_coarsening: bool,
     effort: Effort,
     budget: Option<Duration>,
+    pub(crate) graph: GraphOptions,
 }
 
 /// Meshes points with the default options.
@@ -150,7 +155,9 @@ impl Mesher {
 
     /// The bounds that the mesh is held to, by default those the method keeps.
     /// They may be wider; narrower ones are for
-    /// [`Method::Compact`] only.
+    /// [`Method::Compact`] only. Of graphs, the default is 30 to 90 degrees in
+    /// triangles at most one edge away from a point or segment, and 43.9 to 90
+    /// elsewhere.
     ///
     /// ```
     /// # use hexdel::{AngleBounds, DVec2, Error, Mesher};
@@ -165,7 +172,7 @@ impl Mesher {
         self
     }
 
-    /// Circumradius of the hexagon that the mesh covers, in input units. Its
+    /// Circumradius of the hexagon that a mesh of points covers, in input units. Its
     /// centre is that of the points' smallest enclosing circle, two of its
     /// corners lie east and west. By default as small as the method allows.
     ///
@@ -200,7 +207,7 @@ impl Mesher {
     }
 
     /// Whether hexagons are merged again where all rules allow it (section
-    /// 5.3): a tenth fewer triangles. On by default.
+    /// 5.3): a tenth fewer triangles. On by default; always, for graphs.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, generate};
@@ -292,17 +299,26 @@ impl Mesher {
         points: &[DVec2],
         monitor: &dyn Monitor,
     ) -> Result<Triangulation, Error> {
+        self.on_threads(|| self.run(points, monitor))
+    }
+
+    /// Works on as many threads as asked for.
+    pub(crate) fn on_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> Result<T, Error> + Send,
+    ) -> Result<T, Error> {
         let Some(threads) = self.threads else {
-            return self.run(points, monitor);
+            return work();
         };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .map_err(|_| Error::Threads { threads })?;
-        pool.install(|| self.run(points, monitor))
+        pool.install(work)
     }
 
     fn run(&self, points: &[DVec2], monitor: &dyn Monitor) -> Result<Triangulation, Error> {
+        self.graph.refuse_for_points()?;
         let kept = self.method.bounds();
         let bounds = self.bounds.unwrap_or(kept);
         let compact = self.method == Method::Compact;
