@@ -42,7 +42,7 @@ mod scale;
 
 pub use bounds::{AngleBounds, BoundsError};
 pub use certificate::{
-    ANGLE_TOLERANCE_DEG, Certificate, CertifyOptions, LENGTH_TOLERANCE, Violation, certify,
+    ANGLE_TOLERANCE_DEG, Certificate, CertifyOptions, LENGTH_TOLERANCE, Violation, certify, keeps_bounds,
 };
 pub use circle::{Circle, smallest_enclosing_circle};
 pub use closest_pair::{ClosestPair, closest_pair};
