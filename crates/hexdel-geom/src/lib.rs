@@ -16,6 +16,7 @@
 //! | [`quality`] | angles and aspect ratio of one triangle |
 //! | [`certificate`] | [`certify`]: what a finished mesh keeps, checked from scratch |
 //! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
+//! | [`segment`] | points of a segment, rounded once |
 //! | [`rounding`] | [`settle_rounding`]: moves by units in the last place where rounding spoilt an angle |
 //! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
 
@@ -31,6 +32,7 @@ pub mod predicates;
 pub mod pslg;
 pub mod quality;
 pub mod rounding;
+pub mod segment;
 
 mod double_double;
 mod incidence;
@@ -50,3 +52,4 @@ pub use points::{PointSet, PointsError};
 pub use predicates::{incircle, orient2d};
 pub use pslg::{Pslg, PslgLayoutError, Region};
 pub use rounding::settle_rounding;
+pub use segment::point_on_segment;
