@@ -8,7 +8,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | `options`, `error` | what the caller says and gets |
+//! | `options`, `constraints`, `error` | what the caller says and gets |
 //! | `outline` | [`kinds_of`]: what vertices may do, from the outline |
 //! | `schedule` | [`optimize`]: rounds of work over all parts of the mesh |
 //! | `partition` | cuts the mesh into parts, the same for any number of threads |
@@ -30,6 +30,7 @@
 
 mod angles;
 mod change;
+mod constraints;
 mod decimate;
 mod error;
 mod flip;
@@ -48,7 +49,8 @@ mod schedule;
 mod shake;
 mod work;
 
+pub use constraints::{AreaLimit, Constraints};
 pub use error::OptimizeError;
 pub use options::{Effort, Optimized, Options, Stats, VertexKind};
 pub use outline::kinds_of;
-pub use schedule::optimize;
+pub use schedule::{optimize, optimize_constrained};
