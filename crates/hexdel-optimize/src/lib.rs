@@ -20,6 +20,7 @@
 //! | `work` | a mesh under work: patch, flips, commit, rollback |
 //! | `patch` | moves the vertices of a patch until its angles hold |
 //! | `flip` | Lawson flips in a patch |
+//! | [`live`] | a mesh that fixed vertices come to and go from |
 //! | `mesh` | the editable mesh with its journal |
 //! | `angles` | bounds as polynomial tests |
 //!
@@ -33,6 +34,7 @@ mod decimate;
 mod error;
 mod flip;
 mod import;
+pub mod live;
 mod mesh;
 mod options;
 mod outline;

@@ -44,7 +44,8 @@ pub(crate) fn step(round: usize) -> Step {
 pub(crate) const FIRST_ROUNDS: usize = 3;
 
 /// The steps of each round of search, after which a mesh is given up.
-pub(crate) const SEARCH: [(usize, usize); 7] = [(3, 7), (7, 11), (11, 15), (15, 19), (19, 23), (23, 27), (27, 31)];
+pub(crate) const SEARCH: [(usize, usize); 7] =
+    [(3, 7), (7, 11), (11, 15), (15, 19), (19, 23), (23, 27), (27, 31)];
 
 /// Energy has to fall below this share for an unsolved patch to be kept.
 const KEEP_BELOW: f64 = 0.9;

@@ -13,7 +13,7 @@ use crate::error::OptimizeError;
 use crate::import::{export, import};
 use crate::mesh::Soup;
 use crate::options::{Effort, Optimized, Options, Stats, VertexKind};
-use crate::partition::{Part, Seams, Cuts, extract, merge, partition, spots};
+use crate::partition::{Cuts, Part, Seams, extract, merge, partition, spots};
 use crate::random::Random;
 use crate::refill::Refills;
 use crate::repair::{self, repair, search};

@@ -38,11 +38,8 @@ impl Sweep {
                 return f64::NAN;
             }
         };
-        let options = CertifyOptions {
-            bounds: self.bounds,
-            inputs: Some(points),
-            ..CertifyOptions::default()
-        };
+        let options =
+            CertifyOptions { bounds: self.bounds, inputs: Some(points), ..CertifyOptions::default() };
         let found = certify(&made.mesh, &options);
         if !found.holds() || found.inputs_kept != points.len() {
             println!("{name}: {:?}", found.violations);

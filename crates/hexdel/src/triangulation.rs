@@ -21,6 +21,8 @@ pub struct Triangulation {
     /// templates' only where the coarse one did not lead to the bounds, or with
     /// a budget.
     pub start: Start,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// What it covers.
     pub patch: Patch,
     /// Levels used below the coarsest.
@@ -62,6 +64,8 @@ pub struct Report<'a> {
     pub method: &'static str,
     /// The mesh of the grid that was the start.
     pub start: &'static str,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
@@ -95,6 +99,7 @@ impl Triangulation {
                 Start::Simple => "simple",
                 Start::Coarse => "coarse",
             },
+            budget_spent: self.budget_spent,
             certificate: &self.certificate,
             max_level: self.max_level,
             domain_radius: self.patch.radius,
