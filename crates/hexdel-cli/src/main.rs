@@ -1,12 +1,13 @@
 //! The program `hexdel`: meshes files of points, checks and draws meshes, makes
 //! test points.
 //!
-//! One module per command ([`mesh`], [`check`], [`plot`], [`generate`]), and what
-//! they share: which files are written and when ([`outputs`]), the bar on a terminal
+//! One module per command ([`mesh`], [`check`], [`plot`], [`dual`], [`generate`]),
+//! and what they share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
 mod check;
+mod dual;
 mod exit;
 mod generate;
 mod input;
@@ -39,6 +40,7 @@ enum Command {
     Mesh(mesh::Args),
     Check(check::Args),
     Plot(plot::Args),
+    Dual(dual::Args),
     Generate(generate::Args),
 }
 
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Plot(args) => plot::run(&args),
+        Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
     };
     exit::finish(outcome)
