@@ -33,7 +33,7 @@ pub struct Picture<'a> {
     pub colour_by: ColourBy<'a>,
     /// Whether triangles are filled with their colour.
     pub fill_triangles: bool,
-    /// Whether edges are drawn.
+    /// Whether edges are drawn, those with markers heavier than others.
     pub edges: bool,
     /// Whether input points are drawn, as far as the mesh view names them.
     pub input_points: bool,

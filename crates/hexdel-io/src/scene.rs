@@ -53,6 +53,7 @@ impl<'a> Scene<'a> {
             self.overlay(canvas)?;
             self.triangles(canvas)?;
         }
+        self.segments(canvas)?;
         self.input_points(canvas)?;
         if self.frame.zoomed {
             self.cover(canvas)?;
@@ -116,6 +117,25 @@ impl<'a> Scene<'a> {
             }
             canvas.end()?;
         }
+        canvas.close();
+        Ok(())
+    }
+
+    /// Edges with markers, heavier than all others.
+    fn segments(&self, canvas: &mut dyn Canvas) -> io::Result<()> {
+        let edges = self.view.marked_edges.unwrap_or_default();
+        if edges.is_empty() || !self.view.picture.edges {
+            return Ok(());
+        }
+        let mut places = Vec::new();
+        canvas.open("segments");
+        canvas.begin(Style::line(BLACK, hundredths(1.3 * self.frame.unit)));
+        for edge in edges {
+            let ends = edge.ends.map(|v| self.view.mesh.vertices[v.index()]);
+            self.frame.polygon(&ends, &mut places);
+            canvas.ring(&places, false)?;
+        }
+        canvas.end()?;
         canvas.close();
         Ok(())
     }

@@ -4,7 +4,7 @@
 
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use hexdel_io::{
-    ColourBy, Groups, MeshFormat, MeshView, OverlayClass, Picture, Rgb, WriteError, write_mesh_to,
+    ColourBy, Groups, MarkedEdge, MeshFormat, MeshView, OverlayClass, Picture, Rgb, WriteError, write_mesh_to,
 };
 
 /// `n` by `n` squares, each halved from its lower left to its upper right corner.
@@ -164,6 +164,22 @@ fn an_overlay_is_outlined_over_colours() {
     view.picture.fill_triangles = false;
     let filled = svg(&view);
     assert!(part(&filled, "overlay").contains("fill=\"#090909\"") && filled.contains("cell<"));
+}
+
+#[test]
+fn marked_edges_are_drawn_over_the_others() {
+    let mesh = squares(2);
+    let edge = |a, b| MarkedEdge { ends: [a, b].map(VertexId::new), marker: 3 };
+    let edges = [edge(0, 4), edge(4, 8)];
+    let mut view = MeshView::new(&mesh).with_marked_edges(&edges);
+    view.picture.size_px = 200.0;
+    assert!(part(&svg(&view), "segments").contains("M12 212l100-100M112 112l100-100\""));
+    // Only what a box needs of them.
+    view.picture.zoom = Some([DVec2::splat(0.5), DVec2::splat(0.75)]);
+    let zoomed = svg(&view);
+    assert!(part(&zoomed, "segments").contains("M8 216l208-208"), "{zoomed}");
+    view.picture.edges = false;
+    assert!(!svg(&view).contains("segments"));
 }
 
 #[test]

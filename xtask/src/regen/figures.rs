@@ -5,6 +5,7 @@
 //! (Fig. 8 and 9). Those grids are made by hand, so every figure's mesh is
 //! certified before it is drawn.
 
+use super::Files;
 use hexdel::classify::hexagons::hexagons;
 use hexdel::classify::{Domain, Occupant, Relocation, extract};
 use hexdel::geom::{CertifyOptions, certify};
@@ -22,13 +23,16 @@ const SMALL_PX: f64 = 360.0;
 /// The longer side of a meshed fixture, pixels.
 const LARGE_PX: f64 = 640.0;
 
-/// Every figure by file name.
-pub(super) fn all(root: &Path) -> Result<BTreeMap<String, Vec<u8>>, Box<dyn Error>> {
+/// Where the figures lie, below the documents.
+pub(super) const FOLDER: &str = "figures/algorithm";
+
+/// Every figure by its path below the documents.
+pub(super) fn all(root: &Path) -> Result<Files, Box<dyn Error>> {
     let mut figures = of_fixture(root, "five")?;
     figures.extend(of_grid()?);
     figures.extend(of_templates()?);
     figures.extend(of_points()?);
-    Ok(figures)
+    Ok(figures.into_iter().map(|(name, svg)| (format!("{FOLDER}/{name}"), svg)).collect())
 }
 
 type Figures = Result<Vec<(String, Vec<u8>)>, Box<dyn Error>>;
