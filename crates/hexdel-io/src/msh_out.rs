@@ -105,6 +105,8 @@ impl<'w, 'a> Msh<'w, 'a> {
         let vertices = &self.view.mesh.vertices;
         let low = vertices.iter().copied().reduce(DVec2::min).unwrap_or_default();
         let high = vertices.iter().copied().reduce(DVec2::max).unwrap_or_default();
+        // meshio reads no file in which only some of the entities are in a group.
+        let all = [&self.markers, &self.regions].into_iter().flatten().any(|&group| group != 0);
         let text = &mut self.text;
         text.text("$Entities\n0 ").integer(self.markers.len()).text(" ");
         text.integer(self.regions.len()).text(" 0\n");
@@ -114,10 +116,11 @@ impl<'w, 'a> Msh<'w, 'a> {
                 for number in [low.x, low.y, 0.0, high.x, high.y, 0.0] {
                     text.text(" ").number(number);
                 }
-                match group {
-                    0 => text.text(" 0"),
-                    _ => text.text(" 1 ").integer(group),
-                };
+                if all {
+                    text.text(" 1 ").integer(group);
+                } else {
+                    text.text(" 0");
+                }
                 // No bounding entities are known.
                 text.text(" 0\n").breathe()?;
             }
@@ -227,35 +230,45 @@ impl<'w, 'a> Msh<'w, 'a> {
     fn data(&mut self) -> io::Result<()> {
         let view = self.view;
         if let Some(markers) = view.vertex_markers {
-            self.table("Node", "marker", 1, markers.iter().map(|&m| f64::from(m)))?;
+            self.table("marker", markers.iter().map(|&m| f64::from(m)))?;
         }
         if let Some(inputs) = view.input_indices {
-            self.table("Node", "input_index", 1, inputs.iter().map(|i| i.map_or(-1.0, f64::from)))?;
+            self.table("input_index", inputs.iter().map(|i| i.map_or(-1.0, f64::from)))?;
         }
         if let Some(regions) = view.regions
             && regions.iter().any(|&r| f64::from(group(r)) != r)
         {
-            let first = view.marked_edges.map_or(0, <[_]>::len) + 1;
-            self.table("Element", "region", first, regions.iter().copied())?;
+            // Some readers take the rows for the elements in the order of the file.
+            let edges = view.marked_edges.map_or(0, <[_]>::len);
+            let order = sorted(regions.len(), self.regions.len(), |t| self.region(t));
+            let listed = (0..regions.len()).map(|i| order.as_ref().map_or(i, |order| order[i] as usize));
+            let of_edges = (1..=edges).map(|tag| (tag, 0.0));
+            let of_triangles = listed.map(|t| (edges + t + 1, regions[t]));
+            self.rows("Element", "region", edges + regions.len(), of_edges.chain(of_triangles))?;
         }
         self.text.finish()
     }
 
-    /// A section of data, a number for each item.
-    fn table(
+    /// Data of vertices, a number for each.
+    fn table(&mut self, name: &str, values: impl ExactSizeIterator<Item = f64>) -> io::Result<()> {
+        self.rows("Node", name, values.len(), (1..).zip(values))
+    }
+
+    /// A section of data: numbers of items and their values.
+    fn rows(
         &mut self,
         item: &str,
         name: &str,
-        first: usize,
-        values: impl ExactSizeIterator<Item = f64>,
+        count: usize,
+        rows: impl Iterator<Item = (usize, f64)>,
     ) -> io::Result<()> {
         let text = &mut self.text;
         text.text("$").text(item).text("Data\n1\n\"").text(name);
         // One real tag, the time 0; three integer tags: step 0, one component, the
         // number of items.
-        text.text("\"\n1\n0.0\n3\n0\n1\n").integer(values.len()).text("\n");
-        for (i, value) in values.enumerate() {
-            text.integer(first + i).text(" ").number(value).text("\n").breathe()?;
+        text.text("\"\n1\n0.0\n3\n0\n1\n").integer(count).text("\n");
+        for (tag, value) in rows {
+            text.integer(tag).text(" ").number(value).text("\n").breathe()?;
         }
         text.text("$End").text(item).text("Data\n");
         Ok(())
