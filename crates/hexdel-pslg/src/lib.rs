@@ -52,6 +52,7 @@ mod result;
 mod sectors;
 mod sizing;
 mod validate;
+pub use carve::Carved;
 pub use error::{Feature, PslgError, ValidateError};
 pub use mesher::mesh;
 pub use options::{Extent, Options};

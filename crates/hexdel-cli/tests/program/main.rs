@@ -5,5 +5,6 @@
 
 mod check;
 mod generate;
+mod graph;
 mod mesh;
 mod support;
