@@ -15,6 +15,8 @@
 //! | `.svg` | pictures | | [`write_mesh`] |
 //! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh | | [`write_dual`] |
 //!
+//! [`read_raster`] reads rasters (`.asc`).
+//!
 //! Readers trust nothing: every malformed file is a [`ReadError`] with file and
 //! line, and memory grows with what a file holds, not with what it claims. Lines
 //! may end in CR LF, a byte order mark is skipped, text must be UTF-8. Writers give
@@ -23,6 +25,7 @@
 //! Not here: whether segments cross, points coincide or triangles are any good.
 
 mod angles;
+mod asc;
 mod atomic;
 mod dual;
 mod error;
@@ -41,6 +44,7 @@ mod view;
 mod vtu;
 mod write;
 
+pub use asc::{Raster, parse_raster, read_raster};
 pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};

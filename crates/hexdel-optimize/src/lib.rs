@@ -14,6 +14,7 @@
 //! | `partition` | cuts the mesh into parts, the same for any number of threads |
 //! | `repair` | brings all angles inside |
 //! | `decimate` | removes vertices |
+//! | `sizing` | [`Sizing`]: how long edges may be |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill` | candidate changes of topology and their ranking |
 //! | `work` | a mesh under work: patch, flips, commit, rollback |
@@ -44,9 +45,11 @@ mod refill;
 mod repair;
 mod schedule;
 mod shake;
+mod sizing;
 mod work;
 
 pub use error::OptimizeError;
 pub use options::{Effort, Optimized, Options, Stats, VertexKind};
 pub use outline::kinds_of;
-pub use schedule::optimize;
+pub use schedule::{optimize, optimize_sized};
+pub use sizing::{SIZE_TOLERANCE, Sizing, edge_fits, triangle_fits};

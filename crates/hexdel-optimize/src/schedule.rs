@@ -18,6 +18,7 @@ use crate::random::Random;
 use crate::refill::Refills;
 use crate::repair::{self, repair};
 use crate::shake::{SHAKES, shake};
+use crate::sizing::Sizing;
 use crate::work::Work;
 
 /// Brings every angle of `mesh` inside the bounds and removes vertices while
@@ -53,9 +54,36 @@ pub fn optimize(
     options: &Options,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
+    run(mesh, kinds, options, None, monitor)
+}
+
+/// Like [`optimize`], with edges no longer than wanted: what removals and
+/// shakes change keeps to `sizing`. Repair does not, and edges that are longer
+/// in the mesh given may stay so.
+///
+/// # Errors
+///
+/// As [`optimize`].
+pub fn optimize_sized(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    options: &Options,
+    sizing: &dyn Sizing,
+    monitor: &dyn Monitor,
+) -> Result<Optimized, OptimizeError> {
+    run(mesh, kinds, options, Some(sizing), monitor)
+}
+
+fn run(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    options: &Options,
+    sizing: Option<&dyn Sizing>,
+    monitor: &dyn Monitor,
+) -> Result<Optimized, OptimizeError> {
     let vertices = mesh.vertices.len();
     let soup = import(mesh, kinds)?;
-    let mut run = Run::new(soup, options, monitor);
+    let mut run = Run { sizing, ..Run::new(soup, options, monitor) };
     match run.all() {
         Ok(()) | Err(Stop::OutOfTime) => run.finish(vertices),
         Err(Stop::Cancelled(c)) => Err(c.into()),
@@ -84,6 +112,9 @@ struct Run<'a> {
     soup: Soup,
     options: &'a Options,
     monitor: &'a dyn Monitor,
+    sizing: Option<&'a dyn Sizing>,
+    /// The sizing where the present round keeps to it.
+    guard: Option<&'a dyn Sizing>,
     limits: Limits,
     refills: Refills,
     start: Instant,
@@ -98,6 +129,8 @@ impl<'a> Run<'a> {
             soup,
             options,
             monitor,
+            sizing: None,
+            guard: None,
             limits: Limits::new(options.bounds),
             refills: Refills::new(),
             start: Instant::now(),
@@ -116,6 +149,7 @@ impl<'a> Run<'a> {
         self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
         if self.options.effort == Effort::Best {
             self.decimate(STANDARD_PASSES, PASSES.len())?;
+            self.guard = self.sizing;
             for _ in 0..SHAKES {
                 self.round(shake)?;
             }
@@ -135,6 +169,7 @@ impl<'a> Run<'a> {
     }
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
+        self.guard = self.sizing;
         for &pass in &PASSES[from..to] {
             self.round(|work| {
                 decimate(work, pass);
@@ -144,6 +179,7 @@ impl<'a> Run<'a> {
     }
 
     fn repair(&mut self, from: usize, to: usize) -> Result<(), Stop> {
+        self.guard = None;
         for i in from..to {
             if self.bad().next().is_none() {
                 break;
@@ -200,6 +236,7 @@ impl<'a> Run<'a> {
         // The generator's first output spreads neighbouring seeds.
         let seed = Random::new(seed).next();
         let mut work = Work::new(part.mesh, &self.limits, &self.refills, part.failed, seed);
+        work.sizing = self.guard;
         job(&mut work);
         work.stats.steps = work.patch.steps();
         (Part { mesh: work.mesh, global: part.global, failed: work.failed }, work.stats)
