@@ -1,6 +1,6 @@
 //! Options, and the one call.
 
-use crate::compact::{self, Again};
+use crate::compact::{self, Again, Ended};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
@@ -57,13 +57,16 @@ impl Method {
     }
 }
 
-/// A mesh of the grid.
+/// The mesh of the grid that a mesh was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Start {
+#[non_exhaustive]
+pub enum Start {
+    /// All rules and templates of section 5.
     Templates,
+    /// The rules of section 4.
     Simple,
-    /// Legal classes only, a third of the triangles of the templates: to be
-    /// repaired.
+    /// Legal classes only, a third of the triangles of the templates: repaired
+    /// by [`Method::Compact`].
     Coarse,
 }
 
@@ -407,16 +410,16 @@ impl Mesher {
                 (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
             }
         };
-        let mut reached = true;
+        let mut ended = Ended { reached: true, spent: false };
         if self.method == Method::Compact {
             let options = compact::options(bounds, self.effort, self.budget);
-            reached = compact::optimize_dual(&mut dual, &options, self.size.as_ref(), monitor)?;
+            ended = compact::optimize_dual(&mut dual, &options, self.size.as_ref(), monitor)?;
         }
         let extracted = Instant::now();
 
         check(monitor)?;
         let certificate = match self.finish(&mut dual, bounds, placement, points, monitor) {
-            Err(Error::NotCertified { mesh, certificate }) if !reached => {
+            Err(Error::NotCertified { mesh, certificate }) if !ended.reached => {
                 return Err(Error::Unreached { mesh, certificate });
             }
             done => done?,
@@ -430,6 +433,8 @@ impl Mesher {
             certificate,
             size_ratio,
             method: self.method,
+            start,
+            budget_spent: ended.spent,
             patch: patch(placement, domain),
             max_level: deepest(&refiner) - domain.base_level,
             seconds: Seconds {

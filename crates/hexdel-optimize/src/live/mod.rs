@@ -31,7 +31,7 @@ mod verify;
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
 use thiserror::Error;
 
-use crate::angles::Limits;
+use crate::constraints::Rules;
 use crate::error::OptimizeError;
 use crate::import::import;
 use crate::mesh::{Motion, NONE};
@@ -157,7 +157,7 @@ impl LiveMesh {
     ///
     /// An [`OptimizeError`] that names what is wrong with the mesh.
     pub fn new(mesh: TriMesh, kinds: &[VertexKind], bounds: AngleBounds) -> Result<Self, OptimizeError> {
-        let soup = import(mesh, kinds)?;
+        let soup = import(mesh, kinds, None)?;
         let mut store = Store::default();
         for i in 0..soup.pos.len() {
             let (at, motion, sector) = (soup.pos[i], soup.motion[i], soup.sector[i]);
@@ -170,7 +170,7 @@ impl LiveMesh {
     }
 
     fn of(store: Store, bounds: AngleBounds) -> Self {
-        let tools = Tools { limits: Limits::new(bounds), refills: Refills::new(), sizing: None };
+        let tools = Tools { rules: Rules::new(bounds, None), refills: Refills::new(), sizing: None };
         Self { memory: Memory::new(&store), issued: store.serials, store, tools, bounds, adopted: false }
     }
 

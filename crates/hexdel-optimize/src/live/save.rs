@@ -74,7 +74,7 @@ impl LiveMesh {
         let store = &self.store;
         let vertex = |v: &Vertex| {
             let kind = match v.motion {
-                Motion::Fixed | Motion::Frozen => Kind::Fixed,
+                Motion::Fixed | Motion::Frozen | Motion::On(_) => Kind::Fixed,
                 Motion::Along(d) => Kind::Along(d),
                 Motion::Free => Kind::Free,
             };
@@ -175,7 +175,7 @@ fn check_mesh(state: &LiveState) -> Result<(), StateError> {
         vertices: state.vertices.iter().flatten().map(|v| v.1).collect(),
         triangles: state.triangles.iter().flatten().map(|t| t.1.map(|v| name[v as usize])).collect(),
     };
-    let soup = import(mesh, &kinds)?;
+    let soup = import(mesh, &kinds, None)?;
     for (i, &slot) in live.iter().enumerate() {
         let VertexState(_, _, _, sector, anchor, _) = state.vertices[slot].expect("listed as live");
         let anchored = state.triangles.get(anchor as usize).copied().flatten();
