@@ -1,11 +1,10 @@
 //! `hexdel plot`: pictures of meshes, and the options that all pictures have.
 
 use crate::exit::{Failure, Outcome, Verdict};
-use crate::input::read_points;
 use crate::outputs::Outputs;
 use clap::ValueEnum;
 use hexdel::{AngleBounds, DVec2, TriMesh};
-use hexdel_io::{ColourBy, MeshFormat, MeshView, Picture, WriteError, write_mesh};
+use hexdel_io::{ColourBy, MeshFormat, Picture, WriteError, read_mesh_data, read_points, write_mesh};
 use std::path::PathBuf;
 
 /// Draw a mesh, coloured by its angles or regions
@@ -18,7 +17,7 @@ use std::path::PathBuf;
     hexdel plot mesh.ele -o mesh.svg --histogram\n  \
     hexdel plot mesh.ele -o corner.png --colour largest --zoom 0,0,0.5,0.5 --size 2000")]
 pub(crate) struct Args {
-    /// Mesh: .ele or .node (each with the other beside it), or .ron
+    /// Mesh: .ele (with the .node beside it), .vtu, .msh, .obj, .off, .mesh, .json, .ron
     mesh: PathBuf,
     /// Picture to write, .svg or .png; may be given several times
     #[arg(short, long, value_name = "FILE", required = true)]
@@ -39,9 +38,8 @@ pub(crate) struct Args {
 /// How pictures look.
 #[derive(clap::Args)]
 pub(crate) struct PictureArgs {
-    /// What colours say: an angle, or where a triangle belongs
-    /// [default: smallest]
-    #[arg(long, alias = "color", value_enum, value_name = "BY")]
+    /// smallest or largest angle, region, level or class [default: smallest]
+    #[arg(long, alias = "color", value_enum, value_name = "BY", hide_possible_values = true)]
     pub(crate) colour: Option<Colour>,
     /// Add a histogram of all angles
     #[arg(long)]
@@ -110,11 +108,12 @@ pub(crate) fn run(args: &Args) -> Outcome {
         return Err(Failure::NoHexagons { of: format!("{}: a mesh file", args.mesh.display()) });
     }
     let bounds = AngleBounds::new(args.min_angle, args.max_angle)?;
-    let points = args.input.as_deref().map(read_points).transpose()?;
-    let mesh = hexdel_io::read_mesh(&args.mesh)?;
-    let inputs = points.map(|points| input_indices(&mesh, &points));
-    let mut view = MeshView::new(&mesh).with_picture(args.picture.picture(bounds));
-    view.input_indices = inputs.as_deref();
+    let points = args.input.as_deref().map(read_points).transpose()?.map(|graph| graph.points);
+    let mut data = read_mesh_data(&args.mesh)?;
+    if let Some(points) = points {
+        data.input_indices = Some(input_indices(&data.mesh, &points));
+    }
+    let view = data.view().with_picture(args.picture.picture(bounds));
     outputs.write(|_, path| Ok(write_mesh(path, &view)?))?;
     Ok(Verdict::Holds)
 }

@@ -167,11 +167,6 @@ impl Frame {
         }
         self.length((max * 0.5 - min * 0.5).max_element().max(0.0))
     }
-
-    /// The side of a square if `count` of them fill the drawing, pixels.
-    pub(crate) fn spacing(&self, count: usize) -> f64 {
-        (self.width.max(1.0) * self.height.max(1.0) / count.max(1) as f64).sqrt()
-    }
 }
 
 /// The box around mesh and overlay.

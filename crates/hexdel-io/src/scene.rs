@@ -144,7 +144,7 @@ impl<'a> Scene<'a> {
         if self.dots.is_empty() || !self.view.picture.input_points {
             return Ok(());
         }
-        let radius = (0.1 * self.frame.spacing(self.dots.len())).clamp(0.4, 3.0);
+        let radius = (0.15 * spacing(&self.dots)).clamp(0.5, 3.0);
         let stroke = Some((BLACK, hundredths(0.4 * radius)));
         canvas.open("input-points");
         canvas.discs(Style { stroke, ..Style::filled(WHITE) }, radius, &self.dots)?;
@@ -184,6 +184,17 @@ fn overlay_in_view(view: &MeshView<'_>, frame: &Frame) -> BTreeMap<(u32, usize),
         }
     }
     groups
+}
+
+/// How far points are apart if they are spread evenly, pixels.
+fn spacing(dots: &[Place]) -> f64 {
+    let extent = |axis: usize| {
+        let along = || dots.iter().map(|dot| dot[axis]);
+        let (min, max) = (along().min().unwrap_or(0), along().max().unwrap_or(0));
+        (max - min) as f64 / 100.0
+    };
+    let (width, height, count) = (extent(0), extent(1), dots.len() as f64);
+    if count < 2.0 { f64::INFINITY } else { (width * height / count).sqrt().max(width.max(height) / count) }
 }
 
 fn dots(view: &MeshView<'_>, frame: &Frame) -> Vec<Place> {

@@ -7,8 +7,8 @@
 use super::Files;
 use hexdel::generate::{Kind, generate};
 use hexdel::geom::Pslg;
-use hexdel::io::{ColourBy, MarkedEdge, MeshFormat, MeshView, Picture, read_points, write_mesh_to};
-use hexdel::{AngleBounds, Certificate, DVec2, Mesher, Method};
+use hexdel::io::{MarkedEdge, MeshFormat, MeshView, Picture, read_points, write_mesh_to};
+use hexdel::{Certificate, DVec2, Mesher, Method};
 use rayon::prelude::*;
 use std::error::Error;
 use std::fmt::Write as _;
@@ -76,7 +76,7 @@ const INPUTS: [Input; 6] = [
         name: "letters",
         title: "Letters",
         text: "The outlines of I, M and R as segments, their detail growing from I to R. Triangles at segments \
-               keep 30 to 90 degrees, all others 43.9 to 90. Segments are drawn heavier.",
+               keep 30 to 90 degrees, all others 43.9 to 90.\nSegments are drawn heavier.",
         from: From::Fixture("graphs/letters.poly"),
         radius: None,
         close_up: Some(LETTER_R),
@@ -99,35 +99,46 @@ const INPUTS: [Input; 6] = [
     },
 ];
 
-/// A mesh with its pictures.
-struct Made {
-    method: &'static str,
-    certificate: Certificate,
-    /// By name, the whole mesh first, then the close-up.
-    pictures: Vec<(String, Vec<u8>)>,
+/// A picture of a mesh.
+struct Shown {
+    /// What stands above it.
+    label: &'static str,
+    /// File name and content.
+    file: (String, Vec<u8>),
+    /// What stands below it.
+    figures: String,
 }
 
 /// The document and its pictures, by their paths below `docs`.
 pub(super) fn all(root: &Path) -> Result<Files, Fault> {
-    let cases = INPUTS.iter().flat_map(|input| [Method::Templates, Method::Compact].map(|m| (input, m)));
+    let cases = INPUTS.iter().flat_map(|input| input.methods().iter().map(move |method| (input, *method)));
     let cases: Vec<_> = cases.collect();
-    let made: Vec<Made> =
+    let made: Vec<Vec<Shown>> =
         cases.par_iter().map(|(input, method)| make(root, input, *method)).collect::<Result<_, _>>()?;
     let mut document = OPENING.to_owned();
-    for (input, made) in INPUTS.iter().zip(made.chunks_exact(2)) {
-        section(&mut document, input, made)?;
+    let mut files = Files::new();
+    let mut made = made.into_iter();
+    for input in &INPUTS {
+        let shown: Vec<Shown> = made.by_ref().take(input.methods().len()).flatten().collect();
+        section(&mut document, input, &shown)?;
+        files.extend(shown.into_iter().map(|s| (format!("{FOLDER}/{}", s.file.0), s.file.1)));
     }
-    let pictures = made.into_iter().flat_map(|made| made.pictures);
-    let mut files: Files = pictures.map(|(name, bytes)| (format!("{FOLDER}/{name}"), bytes)).collect();
     files.insert("gallery.md".to_owned(), document.into_bytes());
     Ok(files)
+}
+
+impl Input {
+    /// How it is meshed; there is but one method for segments.
+    fn methods(&self) -> &'static [Method] {
+        if self.close_up.is_some() { &[Method::Templates] } else { &[Method::Templates, Method::Compact] }
+    }
 }
 
 const OPENING: &str = "\
 # Gallery
 
 The six kinds of input that the paper shows (Fig. 15 and Table 1), each meshed by the templates, the paper's
-method, and by the compact method. Triangles are coloured by their smallest angle; the histograms count all angles.
+method, and by the compact method; segments have a method of their own. Triangles are coloured by their smallest angle; the histograms count all angles.
 What random points and what letters the paper has is not published: these are like them.
 
 `cargo xtask regen` makes this page and its pictures. One by one they come from
@@ -141,82 +152,75 @@ More pictures: triangles by their largest angle, region, level or class, the hex
 see `hexdel plot --help`.
 ";
 
-/// Two pictures side by side, with their figures.
-fn section(document: &mut String, input: &Input, made: &[Made]) -> std::fmt::Result {
+/// Pictures side by side, with their figures.
+fn section(document: &mut String, input: &Input, shown: &[Shown]) -> std::fmt::Result {
     let Input { title, text, .. } = input;
-    write!(document, "\n## {title}\n\n{text}\n\n")?;
-    for made in made {
-        write!(document, "| {} ", made.method)?;
+    write!(document, "\n## {title}\n\n{text}\n\n|")?;
+    for Shown { label, .. } in shown {
+        write!(document, " {label} |")?;
     }
-    document.push_str("|\n|---|---|\n");
-    for picture in 0..made[0].pictures.len() {
-        for made in made {
-            let (name, _) = &made.pictures[picture];
-            write!(document, "| ![{title}, {}]({FOLDER}/{name}) ", made.method)?;
-        }
-        document.push_str("|\n");
+    write!(document, "\n|{}\n|", "---|".repeat(shown.len()))?;
+    for Shown { label, file: (name, _), .. } in shown {
+        write!(document, " ![{title}, {label}]({FOLDER}/{name}) |")?;
     }
-    for Made { certificate: c, .. } in made {
-        let (min, max) = (c.min_angle_deg, c.max_angle_deg);
-        write!(document, "| {} triangles, {min:.2}° to {max:.2}° ", c.triangles)?;
+    document.push_str("\n|");
+    for Shown { figures, .. } in shown {
+        write!(document, " {figures} |")?;
     }
-    document.push_str("|\n");
+    document.push('\n');
     Ok(())
 }
 
-fn make(root: &Path, input: &Input, method: Method) -> Result<Made, Fault> {
+fn make(root: &Path, input: &Input, method: Method) -> Result<Vec<Shown>, Fault> {
     let graph = match input.from {
         From::Fixture(path) => read_points(root.join("fixtures").join(path))?,
         From::Uniform(n) => Pslg::from_points(generate(Kind::Uniform, n, 1)),
     };
+    if !graph.segments.is_empty() {
+        let made = Mesher::new().triangulate_pslg(&graph)?;
+        if !made.holds() {
+            return Err(format!("{}: the mesh does not hold", input.name).into());
+        }
+        let edges: Vec<_> =
+            made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
+        let view = MeshView::new(&made.mesh).with_marked_edges(&edges);
+        return [("all", None), ("a part", input.close_up)]
+            .into_iter()
+            .map(|(label, zoom)| shown(input, label, view, &made.certificate, zoom))
+            .collect();
+    }
     let mut mesher = Mesher::new().method(method);
     if let Some(radius) = input.radius {
         mesher = mesher.domain_radius(radius);
     }
-    let name = if method == Method::Compact { "compact" } else { "templates" };
-    let made = if graph.segments.is_empty() {
-        let made = mesher.triangulate(&graph.points)?;
-        let inputs = made.input_of_vertex();
-        let view = MeshView::new(&made.mesh).with_input_indices(&inputs);
-        Made {
-            method: name,
-            pictures: pictures(input, name, view, AngleBounds::EXTENDED)?,
-            certificate: made.certificate,
-        }
-    } else {
-        let made = mesher.triangulate_pslg(&graph)?;
-        let edges: Vec<_> =
-            made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
-        let view = MeshView::new(&made.mesh).with_marked_edges(&edges);
-        Made {
-            method: name,
-            pictures: pictures(input, name, view, made.certificate.bounds)?,
-            certificate: made.certificate,
-        }
-    };
-    Ok(made)
+    let made = mesher.triangulate(&graph.points)?;
+    let inputs = made.input_of_vertex();
+    let view = MeshView::new(&made.mesh).with_input_indices(&inputs);
+    let label = if method == Method::Compact { "compact" } else { "templates" };
+    Ok(vec![shown(input, label, view, &made.certificate, None)?])
 }
 
-/// The whole mesh, and the close-up if there is one.
-fn pictures(
+fn shown(
     input: &Input,
-    method: &str,
+    label: &'static str,
     view: MeshView<'_>,
-    bounds: AngleBounds,
-) -> Result<Vec<(String, Vec<u8>)>, Fault> {
+    certificate: &Certificate,
+    zoom: Option<[DVec2; 2]>,
+) -> Result<Shown, Fault> {
     let in_svg = view.mesh.triangles.len() <= MOST_IN_SVG;
     let (format, extension) = if in_svg { (MeshFormat::Svg, "svg") } else { (MeshFormat::Png, "png") };
-    let boxes = std::iter::once(("", None)).chain(input.close_up.map(|zoom| ("-close", Some(zoom))));
-    let draw = |(part, zoom): (&str, _)| {
-        let mut picture = Picture::default();
-        picture.size_px = SIZE_PX;
-        picture.bounds_deg = [bounds.min_deg(), bounds.max_deg()];
-        picture.colour_by = ColourBy::SmallestAngle;
-        picture.histogram = true;
-        picture.zoom = zoom;
-        let mut bytes = Vec::new();
-        write_mesh_to(&mut bytes, format, &view.with_picture(picture), input.name)?;
-        Ok((format!("{}{part}-{method}.{extension}", input.name), bytes))
+    let mut picture = Picture::default();
+    picture.size_px = SIZE_PX;
+    picture.bounds_deg = [certificate.bounds.min_deg(), certificate.bounds.max_deg()];
+    picture.histogram = true;
+    picture.zoom = zoom;
+    let mut bytes = Vec::new();
+    write_mesh_to(&mut bytes, format, &view.with_picture(picture), input.name)?;
+    let name = format!("{}-{}.{extension}", input.name, label.replace(' ', "-"));
+    let (min, max) = (certificate.min_angle_deg, certificate.max_angle_deg);
+    let figures = match zoom {
+        None => format!("{} triangles, {min:.2}° to {max:.2}°", certificate.triangles),
+        Some(_) => String::new(),
     };
-    boxes.map(draw).collect()
+    Ok(Shown { label, file: (name, bytes), figures })
 }

@@ -6,6 +6,7 @@
 mod check;
 mod dual;
 mod generate;
+mod graph;
 mod mesh;
 mod plot;
 mod support;

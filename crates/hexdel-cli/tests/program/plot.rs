@@ -62,6 +62,24 @@ fn mesh_draws_levels_and_classes() {
 }
 
 #[test]
+fn regions_are_drawn_of_graphs_and_of_files() {
+    let bench = Bench::new();
+    let graph = fixture("graphs/regions.poly");
+    bench.run(&format!("mesh {graph} -q -o m.ele -o m.svg --colour region")).fine();
+    bench.run("plot m.ele -o p.svg --colour region").fine();
+    for name in ["m.svg", "p.svg"] {
+        let svg = String::from_utf8(bench.read(name)).unwrap();
+        assert!(svg.contains(">region<"), "{name}");
+        assert!(svg.matches("#f6b26b").count() >= 2, "the second region: {name}");
+    }
+    // What the file tells, and segments.
+    assert!(String::from_utf8(bench.read("m.svg")).unwrap().contains("id=\"segments\""));
+    bench
+        .run(&format!("mesh {graph} -o p.svg --colour level"))
+        .refused("the mesh of a graph tells no levels");
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused() {
     let bench = meshed();
     bench.file("bad.ele", "1 3 0\n0 0 1 9\n");
