@@ -21,16 +21,16 @@ use std::time::Duration;
     All files are written or none; missing folders are made.\n\n\
     Examples:\n  \
     hexdel mesh cities.csv -o cities.ele -o cities.svg --grid\n  \
-    hexdel mesh cities.csv -o cities.vtu --method compact --report cities.json")]
+    hexdel mesh cities.csv -o cities.vtu --method templates --report cities.json")]
 pub(crate) struct Args {
     /// File of points
     input: PathBuf,
     /// File to write; may be given several times
     #[arg(short, long, value_name = "FILE", required_unless_present = "report")]
     output: Vec<PathBuf>,
-    /// 43.9 to 90 degrees, 30 to 120 with a quarter of the triangles, or
-    /// optimised for few triangles
-    #[arg(long, value_enum, default_value_t = MethodName::Templates)]
+    /// Optimised for few triangles, or meshes of the grid as they are: 43.9 to
+    /// 90 degrees, thirteen times the triangles; 30 to 120, three times
+    #[arg(long, value_enum, default_value_t = MethodName::Compact)]
     method: MethodName,
     /// How hard the compact method tries
     #[arg(long, value_enum, default_value_t = EffortName::Standard)]

@@ -7,9 +7,9 @@ use crate::mesh::{Mesh, Motion, NONE, Soup, Vertices};
 use crate::options::VertexKind;
 
 /// A sliding vertex's direction may differ from its rim sides' by the rounding
-/// of coordinates that are small differences of large ones; beyond this sine
-/// it is another direction.
-const STRAIGHT: f64 = 1e-6;
+/// of coordinates that are small differences of large ones; beyond this sine,
+/// that of [`kinds_of`](crate::kinds_of), it is another direction.
+const STRAIGHT: f64 = 1e-3;
 
 /// Checks the mesh and takes it apart.
 pub(crate) fn import(mesh: TriMesh, kinds: &[VertexKind]) -> Result<Soup, OptimizeError> {
