@@ -68,9 +68,7 @@ fn run(name: &str, rule: Rule, options: &Options) {
     let rounds_ms = Rounds::default();
     let (result, bad) = match optimize(start.mesh, &start.kinds, options, &rounds_ms) {
         Ok(result) => (result, 0),
-        Err(OptimizeError::Unreached { best, bad, .. }) => {
- if std::env::var("DUMP").is_ok() { dump(&best); }
- (*best, bad)},
+        Err(OptimizeError::Unreached { best, bad, .. }) => (*best, bad),
         Err(error) => return println!("{name}: {error}"),
     };
     let Stats { rounds, repairs, removals, shakes, steps, .. } = result.stats;
@@ -112,14 +110,4 @@ fn cpu_seconds() -> f64 {
     let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace();
     let ticks: f64 = fields.skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()).sum();
     ticks / 100.0
-}
-
-fn dump(best: &hexdel_optimize::Optimized) {
-    use std::io::Write;
-    let mut f = std::io::BufWriter::new(std::fs::File::create(std::env::var("DUMP").unwrap()).unwrap());
-    for (v, k) in best.mesh.vertices.iter().zip(&best.kinds) {
-        let k = match k { hexdel_optimize::VertexKind::Fixed => 0, hexdel_optimize::VertexKind::Free => 1, _ => 2 };
-        writeln!(f, "v {} {} {k}", v.x, v.y).unwrap();
-    }
-    for t in &best.mesh.triangles { writeln!(f, "t {} {} {}", t[0].index(), t[1].index(), t[2].index()).unwrap(); }
 }

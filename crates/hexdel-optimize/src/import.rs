@@ -1,6 +1,7 @@
 //! From the caller's mesh to arrays, with every promise checked, and back.
 
 use hexdel_geom::{DVec2, TriMesh, VertexId};
+use rayon::prelude::*;
 
 use crate::error::OptimizeError;
 use crate::mesh::{Mesh, Motion, NONE, Soup, Vertices};
@@ -95,14 +96,14 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
         from: VertexId::new(s.from as usize),
         to: VertexId::new(s.to as usize),
     })?;
-    let (mut tris, mut ring) = (Vec::new(), Vec::new());
-    (0..n as u32)
-        .map(|v| {
+    let checked: Vec<Result<f64, OptimizeError>> = (0..n as u32)
+        .into_par_iter()
+        .map_init(<(Vec<u32>, Vec<u32>)>::default, |(tris, ring), v| {
             let (vertex, at) = (VertexId::new(v as usize), soup.pos[v as usize]);
             if !mesh.alive(v) {
                 return Err(OptimizeError::Isolated { vertex, at });
             }
-            let closed = mesh.ring(v, &mut tris, &mut ring);
+            let closed = mesh.ring(v, tris, ring);
             if tris.len() != mesh.degree(v) {
                 return Err(OptimizeError::NotOneFan { vertex, at });
             }
@@ -115,7 +116,9 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
                 _ => Err(OptimizeError::Misplaced { vertex, at }),
             }
         })
-        .collect()
+        .collect();
+    // The first one in order, whichever thread was first.
+    checked.into_iter().collect()
 }
 
 /// The angle from `u` counter-clockwise to `w`, in (0, 2 pi].
