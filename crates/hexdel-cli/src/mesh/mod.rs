@@ -35,7 +35,7 @@ pub(crate) struct Args {
     #[arg(long, value_enum, hide_possible_values = true)]
     domain: Option<DomainName>,
     /// templates, simple or compact (fewest triangles)
-    #[arg(long, value_enum, default_value_t = MethodName::Templates, hide_possible_values = true)]
+    #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
     /// How hard compact tries: fast, standard or best
     #[arg(long, value_enum, default_value_t = EffortName::Standard, hide_possible_values = true)]
