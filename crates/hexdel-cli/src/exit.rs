@@ -30,6 +30,9 @@ pub(crate) enum Failure {
     /// An error that is about what is in a file.
     #[error("{file}: {source}")]
     Mesh { file: String, source: Box<hexdel::Error> },
+    #[error("{file}: {source}")]
+    #[diagnostic(help("`hexdel check` tells all that is wrong with a mesh"))]
+    Voronoi { file: String, source: hexdel::geom::VoronoiError },
     #[error(transparent)]
     #[diagnostic(help("the smallest angle is at most 60 degrees, the largest at least 60"))]
     Bounds(#[from] BoundsError),

@@ -27,14 +27,16 @@
 //! | `carve` | holes and the outside go |
 //! | `sectors` | corners that are narrower than the bound |
 //! | `fit` | the optimiser |
+//! | `compact` | fewer triangles |
 //! | `mesher` | the order of things |
 //! | `output` | the result |
 //!
-//! Left to others: reading and writing (`hexdel-io`), the templates of the
-//! paper's section 7, and fewer triangles than the grid has.
+//! Left to others: reading and writing (`hexdel-io`), and how vertices are
+//! removed (`hexdel-optimize`).
 
 mod areas;
 mod carve;
+mod compact;
 mod embed;
 mod error;
 mod field;
@@ -46,7 +48,6 @@ mod net;
 mod options;
 mod output;
 mod pairs;
-
 mod repair;
 mod result;
 mod sectors;
@@ -54,6 +55,7 @@ mod sizing;
 mod validate;
 pub use carve::Carved;
 pub use error::{Feature, PslgError, ValidateError};
+pub use hexdel_optimize::Effort;
 pub use mesher::mesh;
 pub use options::{Extent, Options};
 pub use repair::{Repair, RepairReport, repair};

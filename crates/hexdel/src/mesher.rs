@@ -55,13 +55,16 @@ impl Method {
     }
 }
 
-/// A mesh of the grid.
+/// The mesh of the grid that a mesh was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Start {
+#[non_exhaustive]
+pub enum Start {
+    /// All rules and templates of section 5.
     Templates,
+    /// The rules of section 4.
     Simple,
-    /// Legal classes only, a third of the triangles of the templates: to be
-    /// repaired.
+    /// Legal classes only, a third of the triangles of the templates: repaired
+    /// by [`Method::Compact`].
     Coarse,
 }
 
@@ -389,6 +392,7 @@ impl Mesher {
             mesh: dual.mesh,
             certificate,
             method: self.method,
+            start,
             budget_spent: ended.spent,
             patch: patch(placement, domain),
             max_level: deepest(&refiner) - domain.base_level,
