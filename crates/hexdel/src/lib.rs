@@ -69,5 +69,6 @@ pub use hexdel_geom::{
     AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
 };
 pub use hexdel_optimize::Effort;
+pub use hexdel_pslg::SegmentMethod;
 pub use mesher::{Mesher, Method, Start, triangulate};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

@@ -106,7 +106,7 @@ pub struct Mesher {
     pub(crate) domain_radius: Option<f64>,
     threads: Option<usize>,
     pub(crate) without_coarsening: bool,
-    effort: Effort,
+    pub(crate) effort: Effort,
     budget: Option<Duration>,
     pub(crate) graph: GraphOptions,
 }
