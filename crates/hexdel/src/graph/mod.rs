@@ -296,6 +296,7 @@ impl Mesher {
         let given = [
             ("the simple method", self.method == Method::Simple),
             ("the radius of a domain", self.domain_radius.is_some()),
+            ("the size of edges", self.size.is_some()),
             ("meshing without coarsening", self.without_coarsening),
         ];
         match given.into_iter().find(|(_, given)| *given) {
