@@ -124,7 +124,7 @@ pub struct Mesher {
     pub(crate) size: Option<Size>,
     threads: Option<usize>,
     pub(crate) without_coarsening: bool,
-    effort: Effort,
+    pub(crate) effort: Effort,
     budget: Option<Duration>,
     pub(crate) graph: GraphOptions,
 }
