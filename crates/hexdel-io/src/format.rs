@@ -165,6 +165,30 @@ impl MeshFormat {
     }
 }
 
+/// A format of the Voronoi dual of a mesh. Written only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum DualFormat {
+    /// Cells as polygons, `.vtu`.
+    Vtu,
+    /// Triangle's pair of `.v.node` and `.v.edge`; either name stands for both.
+    Voronoi,
+}
+
+impl DualFormat {
+    /// The extensions that duals are written to, for messages.
+    pub const EXTENSIONS: &str = ".vtu, .v.node, .v.edge";
+
+    /// The format that the extension of `path` stands for, in upper or lower case.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        match extension(path)?.as_str() {
+            "vtu" => Some(Self::Vtu),
+            "node" | "edge" if extension(Path::new(path.file_stem()?))? == "v" => Some(Self::Voronoi),
+            _ => None,
+        }
+    }
+}
+
 fn lookup<F: Copy>(names: Names<F>, name: &str) -> Option<F> {
     names.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, format)| *format)
 }
@@ -174,7 +198,7 @@ fn name_of<F: Copy + PartialEq>(names: Names<F>, format: F) -> &'static str {
 }
 
 fn extension(path: &Path) -> Option<String> {
-    path.extension()?.to_str().map(str::to_owned)
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
 #[cfg(test)]

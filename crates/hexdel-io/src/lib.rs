@@ -25,6 +25,7 @@
 //! | `.mesh` | Medit in text | yes | yes |
 //! | `.json` `.ron` | a [`TriMesh`](hexdel_geom::TriMesh) and its data | yes | yes |
 //! | `.svg` | pictures | | yes |
+//! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual, [`write_dual`] | | yes |
 //!
 //! Points go through [`read_points`] and [`write_points`], meshes through
 //! [`read_mesh_data`] and [`write_mesh`], streams through [`read_points_from`],
@@ -40,6 +41,7 @@
 mod angles;
 mod atomic;
 mod data;
+mod dual;
 mod error;
 mod format;
 mod geojson;
@@ -75,8 +77,9 @@ mod wkt;
 mod write;
 
 pub use data::MeshData;
+pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
-pub use format::{MeshFormat, PointFormat};
+pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
 pub use read::{read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from};
 pub use view::{MarkedEdge, MeshView};

@@ -106,7 +106,7 @@ fn cell_data(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
 }
 
 /// Writes `count` values of `N` bytes each.
-fn array<const N: usize>(
+pub(crate) fn array<const N: usize>(
     out: &mut dyn Write,
     attributes: &str,
     count: usize,
