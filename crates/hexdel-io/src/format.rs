@@ -181,9 +181,11 @@ impl DualFormat {
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
-        match extension(path)?.as_str() {
+        match extension(path)?.to_ascii_lowercase().as_str() {
             "vtu" => Some(Self::Vtu),
-            "node" | "edge" if extension(Path::new(path.file_stem()?))? == "v" => Some(Self::Voronoi),
+            "node" | "edge" if extension(Path::new(path.file_stem()?))?.eq_ignore_ascii_case("v") => {
+                Some(Self::Voronoi)
+            }
             _ => None,
         }
     }

@@ -7,5 +7,6 @@ mod check;
 mod convert;
 mod dual;
 mod generate;
+mod graph;
 mod mesh;
 mod support;
