@@ -85,6 +85,8 @@ pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
-pub use read::{read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from};
+pub use read::{
+    holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from,
+};
 pub use view::{MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_to, write_points, write_points_to};
