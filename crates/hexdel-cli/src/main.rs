@@ -1,7 +1,7 @@
 //! The program `hexdel`: meshes files of points, checks meshes, makes test
 //! points.
 //!
-//! One module per command ([`mesh`], [`check`], [`dual`], [`generate`]), and what they
+//! One module per command ([`mesh`], [`check`], [`dual`], [`generate`], [`session`]), and what they
 //! share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
@@ -14,6 +14,8 @@ mod input;
 mod mesh;
 mod outputs;
 mod progress;
+mod session;
+mod sizing;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -40,6 +42,7 @@ enum Command {
     Check(check::Args),
     Dual(dual::Args),
     Generate(generate::Args),
+    Session(session::Args),
 }
 
 fn main() -> ExitCode {
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
+        Command::Session(args) => session::run(&args),
     };
     exit::finish(outcome)
 }
