@@ -264,7 +264,7 @@ impl Mesher {
             boxed::forget_box(&mut made, graph);
         }
         verify::list_all(&mut made);
-        let segments = verify::segments(&made, graph, validated.divided(), domain);
+        let segments = verify::segments(&mut made, graph, &validated, domain);
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
         Ok(PslgTriangulation::new(made, segments, repaired, domain, watch.seconds()))
