@@ -54,6 +54,12 @@ pub(crate) enum Failure {
     NoFormat { stream: &'static str },
     #[error("standard output: {0}")]
     Stdout(io::Error),
+    #[error("standard input: {0}")]
+    Stdin(io::Error),
+    #[error("{file}: {source}")]
+    Size { file: String, source: hexdel::SizeError },
+    #[error("{failed} commands failed")]
+    Commands { failed: usize },
     #[error("no JSON of the figures: {0}")]
     Json(#[from] serde_json::Error),
 }

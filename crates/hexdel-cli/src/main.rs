@@ -1,8 +1,8 @@
 //! The program `hexdel`: meshes files of points and segments, checks meshes, makes test
 //! points.
 //!
-//! One module per command ([`mesh`], [`check`],
-//! [`convert`], [`dual`], [`generate`]), and what they
+//! One module per command ([`mesh`], [`check`], [`convert`], [`dual`],
+//! [`generate`], [`session`]), and what they
 //! share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
@@ -15,6 +15,8 @@ mod generate;
 mod mesh;
 mod outputs;
 mod progress;
+mod session;
+mod sizing;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -42,6 +44,7 @@ enum Command {
     Convert(convert::Args),
     Dual(dual::Args),
     Generate(generate::Args),
+    Session(session::Args),
 }
 
 fn main() -> ExitCode {
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         Command::Convert(args) => convert::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
+        Command::Session(args) => session::run(&args),
     };
     exit::finish(outcome)
 }
