@@ -2,45 +2,51 @@
 //! leaves.
 //!
 //! ```text
-//! cargo run --release -p hexdel-pslg --example paper -- [hexagon|inside] FILE.poly|line|square|FAMILY:SEED ...
+//! cargo run --release -p hexdel-pslg --example paper -- [hexagon|inside] FILE.poly|line|square|FAMILY:SEED|sweep:SEEDS ...
 //! ```
 //!
 //! Columns: triangles; smallest and largest angle; the same among triangles
 //! without a corner on a point or segment; triangles that do not keep 30 to 90
-//! degrees.
+//! degrees. A sweep goes through all families of small graphs with so many seeds
+//! each, and ten times as many random graphs.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
 
 use hexdel_geom::{DVec2, Pslg, TriangleId, Unwatched, quality};
 use hexdel_io::read_points;
-use hexdel_pslg::{Extent, Options, PslgMesh, SegmentMethod, mesh, validate};
+use hexdel_pslg::{Extent, Options, PslgMesh, SegmentMethod, mesh, repair, validate};
 use std::error::Error;
 use std::io::Write;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut options = Options::new().method(SegmentMethod::Paper);
-    let mut out = std::io::stdout();
     for name in std::env::args().skip(1) {
         match name.as_str() {
             "hexagon" => options = options.extent(Extent::Hexagon),
             "inside" => options = options.extent(Extent::Inside),
-            _ => {
-                let made = mesh(&validate(&graph(&name)?)?, &options, &Unwatched)?;
-                let c = &made.certificate;
-                let [least, most] = angles_away(&made);
-                writeln!(
-                    out,
-                    "{name:40} {:7} {:7.2} {:7.2}   {least:7.4} {most:7.4} {:6} {}",
-                    c.triangles,
-                    c.min_angle_deg,
-                    c.max_angle_deg,
-                    made.failed.len(),
-                    if made.holds() { "holds" } else { "DOES NOT HOLD" },
-                )?;
-            }
+            _ => match name.strip_prefix("sweep:") {
+                Some(seeds) => sweep(seeds.parse()?, &options)?,
+                None => one(&name, &options)?,
+            },
         }
     }
+    Ok(())
+}
+
+fn one(name: &str, options: &Options) -> Result<(), Box<dyn Error>> {
+    let made = mesh(&validate(&graph(name)?)?, options, &Unwatched)?;
+    let c = &made.certificate;
+    let [least, most] = angles_away(&made);
+    writeln!(
+        std::io::stdout(),
+        "{name:40} {:7} {:7.2} {:7.2}   {least:7.4} {most:7.4} {:6} {}",
+        c.triangles,
+        c.min_angle_deg,
+        c.max_angle_deg,
+        made.failed.len(),
+        if made.holds() { "holds" } else { "DOES NOT HOLD" },
+    )?;
     Ok(())
 }
 
@@ -75,4 +81,57 @@ fn angles_away(made: &PslgMesh) -> [f64; 2] {
     let away = made.mesh.triangles.iter().enumerate().filter(|(_, t)| t.iter().all(|v| !near[v.index()]));
     away.flat_map(|(t, _)| quality::angles_deg(made.mesh.corners(TriangleId::new(t))))
         .fold([180.0, 0.0], |[least, most], a| [a.min(least), a.max(most)])
+}
+
+/// What came out for many graphs.
+struct Tally {
+    meshes: usize,
+    refused: usize,
+    /// Meshes that are invalid, or do not hold what the method promises.
+    wrong: usize,
+    least: f64,
+    most: f64,
+}
+
+impl Tally {
+    fn of(graphs: impl Iterator<Item = Pslg>, options: &Options) -> Result<Self, Box<dyn Error>> {
+        let mut tally = Self { meshes: 0, refused: 0, wrong: 0, least: 180.0, most: 0.0 };
+        for graph in graphs {
+            let Ok(made) = mesh(&validate(&graph)?, options, &Unwatched) else {
+                tally.refused += 1;
+                continue;
+            };
+            tally.meshes += 1;
+            tally.wrong += usize::from(!made.holds() || support::check(&graph, &made).is_err());
+            tally.least = tally.least.min(made.certificate.min_angle_deg);
+            tally.most = tally.most.max(made.certificate.max_angle_deg);
+        }
+        Ok(tally)
+    }
+
+    fn print(&self, name: &str) -> Result<(), Box<dyn Error>> {
+        writeln!(
+            std::io::stdout(),
+            "{name:14} {:6} meshes, {:4} refused, {} wrong, {:6.2} to {:6.2} degrees",
+            self.meshes,
+            self.refused,
+            self.wrong,
+            self.least,
+            self.most
+        )?;
+        Ok(())
+    }
+}
+
+fn sweep(seeds: u64, options: &Options) -> Result<(), Box<dyn Error>> {
+    let options = options.clone().max_triangles(200_000);
+    for name in support::FAMILIES {
+        Tally::of((0..seeds).map(|seed| support::family(name, seed)), &options)?.print(name)?;
+    }
+    let random = (0..10 * seeds).filter_map(|seed| {
+        let mut graph = support::random_graph(seed);
+        graph.holes.clear();
+        if validate(&graph).is_ok() { Some(graph) } else { repair(&graph, 1e-6).ok().map(|r| r.0) }
+    });
+    Tally::of(random, &options)?.print("random")
 }
