@@ -57,7 +57,7 @@ pub fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> f64 {
 ///       a
 /// ```
 #[inline]
-pub(crate) fn locally_delaunay(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+pub fn locally_delaunay(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     // Two acute angles opposite the edge sum to less than 180 degrees.
     if surely_acute(a - b, c - b) && surely_acute(a - d, c - d) {
         return true;
@@ -140,7 +140,7 @@ impl Corner {
 /// error is below `4.1 u (|x1 x2| + |y1 y2|)`; 8 u covers the rounding of the
 /// bound as well.
 #[inline]
-fn surely_acute(u: DVec2, w: DVec2) -> bool {
+pub(crate) fn surely_acute(u: DVec2, w: DVec2) -> bool {
     let (x, y) = (u.x * w.x, u.y * w.y);
     x + y > 4.0 * f64::EPSILON * (x.abs() + y.abs())
 }

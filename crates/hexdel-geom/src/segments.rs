@@ -34,6 +34,17 @@ pub struct SegmentCheck {
     pub kept: usize,
     /// The first that are not, in order.
     pub missing: Vec<MissingSegment>,
+    /// The edges that segments consist of, as far as they could be followed:
+    /// each with its lower vertex first, sorted, once.
+    #[serde(skip)]
+    pub edges: Vec<[VertexId; 2]>,
+}
+
+impl SegmentCheck {
+    /// Whether there is an edge between two vertices that is part of a segment.
+    pub fn has_edge(&self, [a, b]: [VertexId; 2]) -> bool {
+        self.edges.binary_search(&[a.min(b), a.max(b)]).is_ok()
+    }
 }
 
 /// A segment that is no union of edges.
@@ -83,7 +94,7 @@ pub fn check_segments(mesh: &TriMesh, points: &[DVec2], segments: &[[u32; 2]]) -
     if segments.is_empty() {
         return found;
     }
-    let walker = Walker::new(mesh, points, segments);
+    let mut walker = Walker::new(mesh, points, segments);
     for (segment, ends) in segments.iter().enumerate() {
         let ends = ends.map(|p| points[p as usize]);
         match walker.walk(ends) {
@@ -94,6 +105,9 @@ pub fn check_segments(mesh: &TriMesh, points: &[DVec2], segments: &[[u32; 2]]) -
             Err(_) => {}
         }
     }
+    found.edges = walker.edges;
+    found.edges.sort_unstable();
+    found.edges.dedup();
     found
 }
 
@@ -103,6 +117,8 @@ struct Walker<'a> {
     /// The vertices at the ends of segments, by coordinates. There may be
     /// several at one place, where parts of the mesh touch in a point.
     at: FxHashMap<[u64; 2], Vec<u32>>,
+    /// The edges followed.
+    edges: Vec<[VertexId; 2]>,
 }
 
 impl<'a> Walker<'a> {
@@ -114,20 +130,22 @@ impl<'a> Walker<'a> {
                 vertices.push(v as u32);
             }
         }
-        Self { mesh, incidence: Incidence::new(mesh), at }
+        Self { mesh, incidence: Incidence::new(mesh), at, edges: Vec::new() }
     }
 
     /// Follows a segment; if that fails, says how far it came.
-    fn walk(&self, [a, b]: [DVec2; 2]) -> Result<(), Option<DVec2>> {
+    fn walk(&mut self, [a, b]: [DVec2; 2]) -> Result<(), Option<DVec2>> {
         let start = self.at.get(&coordinate_key(a)).and_then(|vertices| vertices.first());
         let mut v = *start.ok_or(None)? as usize;
         let line = Line::new(a, b);
         let mut done = 0.0;
         while self.place(v) != b {
             // The next vertex along the segment is the nearest one.
-            let onward = self.neighbours(v).filter_map(|w| Some((line.along(self.place(w))?, w)));
+            let onward = self.neighbours(v).filter_map(|[v, w]| Some((line.along(self.place(w))?, [v, w])));
             let next = onward.filter(|next| next.0 > done).min_by(|x, y| x.0.total_cmp(&y.0));
-            (done, v) = next.ok_or(Some(self.place(v)))?;
+            let (along, [from, to]) = next.ok_or(Some(self.place(v)))?;
+            self.edges.push([from.min(to), from.max(to)].map(VertexId::new));
+            (done, v) = (along, to);
         }
         Ok(())
     }
@@ -136,13 +154,16 @@ impl<'a> Walker<'a> {
         self.mesh.vertices[v]
     }
 
-    /// The corners of the triangles at a vertex and at others in its place.
-    fn neighbours(&self, v: usize) -> impl Iterator<Item = usize> + '_ {
+    /// The edges of the triangles at a vertex, and at others in its place, that
+    /// begin there, and from each vertex to itself.
+    fn neighbours(&self, v: usize) -> impl Iterator<Item = [usize; 2]> + '_ {
         let same = self.at.get(&coordinate_key(self.place(v))).map_or(&[][..], Vec::as_slice);
         let alone = same.is_empty().then_some(v);
         let copies = same.iter().map(|&v| v as usize).chain(alone);
-        let around = copies.flat_map(|v| self.incidence.around(v));
-        around.flat_map(|&t| self.mesh.triangles[t as usize]).map(VertexId::index)
+        copies.flat_map(|v| {
+            let corners = self.incidence.around(v).iter().flat_map(|&t| self.mesh.triangles[t as usize]);
+            corners.map(move |w| [v, w.index()])
+        })
     }
 }
 
@@ -192,7 +213,10 @@ mod tests {
         let ends = [DVec2::new(0.1, 0.3), DVec2::new(0.3, 0.9)];
         for middle in [0.6, 0.6 + f64::EPSILON, 0.6 - f64::EPSILON] {
             for segment in [[0, 1], [1, 0]] {
-                assert_eq!(check_segments(&row(middle), &ends, &[segment]).kept, 1, "{middle}");
+                let found = check_segments(&row(middle), &ends, &[segment, [0, 0]]);
+                assert_eq!(found.kept, 2, "{middle}");
+                assert!(found.edges.len() == 2 && found.has_edge([2, 1].map(VertexId::new)));
+                assert!(!found.has_edge([0, 2].map(VertexId::new)));
             }
         }
         for middle in [0.6 + 1e-14, 0.7] {

@@ -3,12 +3,13 @@
 use std::fmt;
 
 use hexdel_geom::{TriMesh, VertexId};
+use serde::{Deserialize, Serialize};
 
 use crate::error::WriteError;
 use crate::picture::Picture;
 
 /// An edge of a mesh that has a marker: on an input segment or on the boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MarkedEdge {
     /// Its ends, in the direction of the segment.
     pub ends: [VertexId; 2],

@@ -27,15 +27,17 @@
 //! | `carve` | holes and the outside go |
 //! | `sectors` | corners that are narrower than the bound |
 //! | `fit` | the optimiser |
+//! | `compact` | fewer triangles |
 //! | `mesher` | the order of things |
 //! | `paper` | the paper's own way with segments, to compare with |
 //! | `output` | the result |
 //!
-//! Left to others: reading and writing (`hexdel-io`), and fewer triangles than
-//! the grid has.
+//! Left to others: reading and writing (`hexdel-io`), and how vertices are
+//! removed (`hexdel-optimize`).
 
 mod areas;
 mod carve;
+mod compact;
 mod embed;
 mod error;
 mod field;
@@ -53,7 +55,9 @@ mod result;
 mod sectors;
 mod sizing;
 mod validate;
+
 pub use error::{Feature, PslgError, ValidateError};
+pub use hexdel_optimize::Effort;
 pub use mesher::mesh;
 pub use options::{Extent, Options, SegmentMethod};
 pub use repair::{Repair, RepairReport, repair};

@@ -2,6 +2,7 @@
 
 use crate::areas::AreaLimits;
 use crate::carve::carve;
+use crate::compact::{Kept, compact};
 use crate::embed::embed;
 use crate::error::PslgError;
 use crate::fit::judge::{Judge, Wedges};
@@ -101,8 +102,12 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
         }
         attempt += 1;
     }
-    let (_, net) = best.expect("the first attempt is the best of one at least");
+    let (_, mut net) = best.expect("the first attempt is the best of one at least");
     check(monitor)?;
+    if let Some(effort) = options.compact {
+        let kept = Kept { pieces: &mesher.pieces, judge: mesher.judge(), areas: mesher.areas.as_ref() };
+        net = compact(net, &kept, effort, monitor)?;
+    }
     let parts = Parts {
         input,
         pieces: &mesher.pieces,

@@ -39,6 +39,11 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+/// The examples of the guide.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/guide.md")]
+struct Guide;
+
 mod compact;
 pub mod error;
 pub mod generate;
@@ -64,5 +69,5 @@ pub use hexdel_geom::{
     AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
 };
 pub use hexdel_optimize::Effort;
-pub use mesher::{Mesher, Method, triangulate};
+pub use mesher::{Mesher, Method, Start, triangulate};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

@@ -1,6 +1,6 @@
 //! Options, and the one call.
 
-use crate::compact::{self, Again};
+use crate::compact::{self, Again, Ended};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
@@ -55,13 +55,16 @@ impl Method {
     }
 }
 
-/// A mesh of the grid.
+/// The mesh of the grid that a mesh was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Start {
+#[non_exhaustive]
+pub enum Start {
+    /// All rules and templates of section 5.
     Templates,
+    /// The rules of section 4.
     Simple,
-    /// Legal classes only, a third of the triangles of the templates: to be
-    /// repaired.
+    /// Legal classes only, a third of the triangles of the templates: repaired
+    /// by [`Method::Compact`].
     Coarse,
 }
 
@@ -368,16 +371,16 @@ impl Mesher {
         let domain = placement.domain(refiner.grid(), relocation)?;
         let occupants = refiner.occupants();
         let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
-        let mut reached = true;
+        let mut ended = Ended { reached: true, spent: false };
         if self.method == Method::Compact {
             let options = compact::options(bounds, self.effort, self.budget);
-            reached = compact::optimize_dual(&mut dual, &options, monitor)?;
+            ended = compact::optimize_dual(&mut dual, &options, monitor)?;
         }
         let extracted = Instant::now();
 
         check(monitor)?;
         let certificate = match self.finish(&mut dual, bounds, placement, points, monitor) {
-            Err(Error::NotCertified { mesh, certificate }) if !reached => {
+            Err(Error::NotCertified { mesh, certificate }) if !ended.reached => {
                 return Err(Error::Unreached { mesh, certificate });
             }
             done => done?,
@@ -389,6 +392,8 @@ impl Mesher {
             mesh: dual.mesh,
             certificate,
             method: self.method,
+            start,
+            budget_spent: ended.spent,
             patch: patch(placement, domain),
             max_level: deepest(&refiner) - domain.base_level,
             seconds: Seconds {

@@ -263,6 +263,7 @@ impl Mesher {
         if boxed.is_some() {
             boxed::forget_box(&mut made, graph);
         }
+        verify::list_all(&mut made);
         let segments = verify::segments(&made, graph, validated.divided(), domain);
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);

@@ -1,9 +1,47 @@
-//! Whether every segment in the domain is a union of edges, found out anew from
-//! coordinates and indices.
+//! What a finished mesh keeps, found out anew from coordinates and indices.
 
 use super::Domain;
-use hexdel_geom::{Pslg, SegmentCheck, VertexId, check_segments};
-use hexdel_pslg::{Divided, PslgMesh};
+use hexdel_geom::certificate::Violation;
+use hexdel_geom::{
+    CertifyOptions, Pslg, SegmentCheck, TriangleId, VertexId, certify, check_segments, quality,
+};
+use hexdel_pslg::{Divided, Exception, PslgMesh, Reason};
+use std::collections::BTreeSet;
+
+/// Lists every triangle that the certificate finds out of bounds and the mesher
+/// has said nothing of.
+pub(super) fn list_all(made: &mut PslgMesh) {
+    if made.certificate.out_of_bounds == 0 {
+        return;
+    }
+    let options = CertifyOptions {
+        bounds: made.certificate.bounds,
+        max_violations: usize::MAX,
+        ..CertifyOptions::default()
+    };
+    let listed: BTreeSet<TriangleId> =
+        made.exempt.iter().chain(&made.failed).filter(|e| is_of(e, made)).map(|e| e.triangle).collect();
+    for violation in certify(&made.mesh, &options).violations {
+        let (Violation::AngleBelow { triangle, corners, .. }
+        | Violation::AngleAbove { triangle, corners, .. }) = violation
+        else {
+            continue;
+        };
+        if !listed.contains(&triangle) {
+            let angles = quality::angles_deg(corners);
+            let at = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let angles_deg =
+                [angles.iter().copied().fold(360.0, f64::min), angles.iter().copied().fold(0.0, f64::max)];
+            made.failed.push(Exception { triangle, at, angles_deg, reason: Reason::Unsolved });
+        }
+    }
+}
+
+/// Whether an exception is about the triangle it names, as it is now.
+fn is_of(exception: &Exception, made: &PslgMesh) -> bool {
+    let [a, b, c] = made.mesh.corners(exception.triangle);
+    exception.at == (a + b + c) / 3.0
+}
 
 /// Checks the segments of a graph, piece by piece between the points on them.
 /// A piece may be missing as a whole where holes or the outside were left away.
