@@ -2,13 +2,18 @@
 //! leaves.
 //!
 //! ```text
-//! cargo run --release -p hexdel-pslg --example paper -- [hexagon|inside] FILE.poly|line|square|FAMILY:SEED|sweep:SEEDS ...
+//! cargo run --release -p hexdel-pslg --example paper -- [hexagon|inside|turns:N] NAME ...
 //! ```
+//!
+//! A name is a `.poly` file, `line`, `square`, `FAMILY:SEED` or `sweep:SEEDS`. What
+//! stands before it is for all that follow.
 //!
 //! Columns: triangles; smallest and largest angle; the same among triangles
 //! without a corner on a point or segment; triangles that do not keep 30 to 90
-//! degrees. A sweep goes through all families of small graphs with so many seeds
-//! each, and ten times as many random graphs.
+//! degrees. With turns, the range of each column for a graph turned N times by the
+//! N-th part of 60 degrees, as lines meet the lattice differently then. A sweep
+//! goes through all families of small graphs with so many seeds each, and ten
+//! times as many random graphs.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -17,37 +22,62 @@ use hexdel_geom::{DVec2, Pslg, TriangleId, Unwatched, quality};
 use hexdel_io::read_points;
 use hexdel_pslg::{Extent, Options, PslgMesh, SegmentMethod, mesh, repair, validate};
 use std::error::Error;
+use std::f64::consts::FRAC_PI_3;
 use std::io::Write;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut options = Options::new().method(SegmentMethod::Paper);
+    let mut turns = 1;
     for name in std::env::args().skip(1) {
         match name.as_str() {
             "hexagon" => options = options.extent(Extent::Hexagon),
             "inside" => options = options.extent(Extent::Inside),
-            _ => match name.strip_prefix("sweep:") {
-                Some(seeds) => sweep(seeds.parse()?, &options)?,
-                None => one(&name, &options)?,
+            _ => match name.split_once(':') {
+                Some(("turns", n)) => turns = n.parse()?,
+                Some(("sweep", seeds)) => sweep(seeds.parse()?, &options)?,
+                _ => all_turns(&name, turns, &options)?,
             },
         }
     }
     Ok(())
 }
 
-fn one(name: &str, options: &Options) -> Result<(), Box<dyn Error>> {
-    let made = mesh(&validate(&graph(name)?)?, options, &Unwatched)?;
-    let c = &made.certificate;
-    let [least, most] = angles_away(&made);
-    writeln!(
-        std::io::stdout(),
-        "{name:40} {:7} {:7.2} {:7.2}   {least:7.4} {most:7.4} {:6} {}",
-        c.triangles,
-        c.min_angle_deg,
-        c.max_angle_deg,
-        made.failed.len(),
-        if made.holds() { "holds" } else { "DOES NOT HOLD" },
-    )?;
+fn all_turns(name: &str, turns: u32, options: &Options) -> Result<(), Box<dyn Error>> {
+    let graph = graph(name)?;
+    let mut columns: [[f64; 2]; 6] = [[f64::INFINITY, f64::NEG_INFINITY]; 6];
+    let mut holds = true;
+    for turn in 0..turns {
+        let turned = turned(&graph, FRAC_PI_3 * f64::from(turn) / f64::from(turns));
+        let made = mesh(&validate(&turned)?, options, &Unwatched)?;
+        holds &= made.holds();
+        let c = &made.certificate;
+        let [least, most] = angles_away(&made);
+        let (count, failed) = (c.triangles as f64, made.failed.len() as f64);
+        let found = [count, c.min_angle_deg, c.max_angle_deg, least, most, failed];
+        for (column, x) in columns.iter_mut().zip(found) {
+            *column = [column[0].min(x), column[1].max(x)];
+        }
+    }
+    let mut out = std::io::stdout();
+    write!(out, "{name:40}")?;
+    for ([min, max], digits) in columns.into_iter().zip([0, 1, 1, 4, 4, 0]) {
+        write!(out, "  {min:.digits$}")?;
+        if turns > 1 {
+            write!(out, "..{max:.digits$}")?;
+        }
+    }
+    writeln!(out, "  {}", if holds { "holds" } else { "DOES NOT HOLD" })?;
     Ok(())
+}
+
+fn turned(graph: &Pslg, by: f64) -> Pslg {
+    let turn = DVec2::from_angle(by);
+    let mut turned = graph.clone();
+    let regions = turned.regions.iter_mut().map(|r| &mut r.point);
+    for p in turned.points.iter_mut().chain(&mut turned.holes).chain(regions) {
+        *p = turn.rotate(*p);
+    }
+    turned
 }
 
 fn graph(name: &str) -> Result<Pslg, Box<dyn Error>> {
