@@ -1,4 +1,4 @@
-//! The program `hexdel`: meshes files of points, checks meshes, makes test
+//! The program `hexdel`: meshes files of points and segments, checks meshes, makes test
 //! points.
 //!
 //! One module per command ([`mesh`], [`check`], [`dual`], [`generate`]), and what they
@@ -10,7 +10,6 @@ mod check;
 mod dual;
 mod exit;
 mod generate;
-mod input;
 mod mesh;
 mod outputs;
 mod progress;
@@ -23,7 +22,7 @@ use std::process::ExitCode;
     name = "hexdel",
     version,
     about = "Triangle meshes of points with every angle between 43.9 and 90 degrees, certified",
-    after_help = "Exit codes: 0 done, 1 a mesh failed its check, 2 bad input or usage.\n\n\
+    after_help = "Exit codes: 0 done, 1 a check failed, 2 bad input or usage, 3 budget spent (mesh written).\n\n\
         Examples:\n  \
         hexdel generate clusters 500 --seed 1 -o points.node\n  \
         hexdel mesh points.node -o mesh.ele -o mesh.svg\n  \

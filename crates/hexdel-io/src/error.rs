@@ -245,6 +245,16 @@ pub enum ReadError {
         /// What the parser says.
         message: String,
     },
+    /// A raster is not as its format wants it.
+    #[error("{file}:{line}: {message}")]
+    Raster {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// What is wrong.
+        message: String,
+    },
 }
 
 impl ReadError {
@@ -272,7 +282,8 @@ impl ReadError {
             | Self::Length { line, .. }
             | Self::Json { line, .. }
             | Self::Xml { line, .. }
-            | Self::Ron { line, .. } => *line,
+            | Self::Ron { line, .. }
+            | Self::Raster { line, .. } => *line,
         };
         (line > 0).then_some(line)
     }

@@ -31,6 +31,8 @@
 //! [`read_mesh_data`] and [`write_mesh`], streams through [`read_points_from`],
 //! [`write_points_to`], [`read_mesh_from`] and [`write_mesh_to`] with the format named.
 //!
+//! [`read_raster`] reads rasters (`.asc`).
+//!
 //! Readers trust nothing: every malformed file is a [`ReadError`] with file and
 //! line, and memory grows with what a file holds, not with what it claims. Lines
 //! may end in CR LF, a byte order mark is skipped, text must be UTF-8. Writers give
@@ -39,6 +41,7 @@
 //! Not here: whether segments cross, points coincide or triangles are any good.
 
 mod angles;
+mod asc;
 mod atomic;
 mod data;
 mod dual;
@@ -76,6 +79,7 @@ mod vtu_in;
 mod wkt;
 mod write;
 
+pub use asc::{Raster, parse_raster, read_raster};
 pub use data::MeshData;
 pub use dual::write_dual;
 pub use error::{ReadError, WriteError};

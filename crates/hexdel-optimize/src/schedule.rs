@@ -20,6 +20,7 @@ use crate::refill::Refills;
 use crate::repair::{self, repair, search};
 use crate::rescue::rescue;
 use crate::shake::{SHAKES, shake};
+use crate::sizing::Sizing;
 use crate::work::Work;
 
 /// Brings every angle of `mesh` inside the bounds and removes vertices while
@@ -55,7 +56,24 @@ pub fn optimize(
     options: &Options,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
-    run(mesh, kinds, None, options, monitor)
+    run(mesh, kinds, None, options, None, monitor)
+}
+
+/// Like [`optimize`], with edges no longer than wanted: what removals and
+/// shakes change keeps to `sizing`. Repair does not, and edges that are longer
+/// in the mesh given may stay so.
+///
+/// # Errors
+///
+/// As [`optimize`].
+pub fn optimize_sized(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    options: &Options,
+    sizing: &dyn Sizing,
+    monitor: &dyn Monitor,
+) -> Result<Optimized, OptimizeError> {
+    run(mesh, kinds, None, options, Some(sizing), monitor)
 }
 
 /// [`optimize`] for a mesh with segments in it.
@@ -81,7 +99,7 @@ pub fn optimize_constrained(
     options: &Options,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
-    run(mesh, kinds, Some(constraints), options, monitor)
+    run(mesh, kinds, Some(constraints), options, None, monitor)
 }
 
 fn run(
@@ -89,12 +107,13 @@ fn run(
     kinds: &[VertexKind],
     constraints: Option<&Constraints<'_>>,
     options: &Options,
+    sizing: Option<&dyn Sizing>,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
     let vertices = mesh.vertices.len();
     let soup = import(mesh, kinds, constraints)?;
     let rules = Rules::new(options.bounds, constraints);
-    let mut run = Run::new(soup, options, &rules, monitor);
+    let mut run = Run { sizing, ..Run::new(soup, options, &rules, monitor) };
     match run.all() {
         Ok(()) | Err(Stop::OutOfTime) => run.finish(vertices),
         Err(Stop::Cancelled(c)) => Err(c.into()),
@@ -133,6 +152,9 @@ struct Run<'a> {
     soup: Soup,
     options: &'a Options,
     monitor: &'a dyn Monitor,
+    sizing: Option<&'a dyn Sizing>,
+    /// The sizing where the present round keeps to it.
+    guard: Option<&'a dyn Sizing>,
     rules: &'a Rules<'a>,
     refills: Refills,
     start: Instant,
@@ -147,6 +169,8 @@ impl<'a> Run<'a> {
             soup,
             options,
             monitor,
+            sizing: None,
+            guard: None,
             rules,
             refills: Refills::new(),
             start: Instant::now(),
@@ -165,6 +189,7 @@ impl<'a> Run<'a> {
         self.search()?;
         if self.options.effort == Effort::Best {
             self.decimate(STANDARD_PASSES, PASSES.len())?;
+            self.guard = self.sizing;
             for _ in 0..SHAKES {
                 self.round(shake)?;
             }
@@ -184,6 +209,7 @@ impl<'a> Run<'a> {
     }
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
+        self.guard = self.sizing;
         for &pass in &PASSES[from..to] {
             self.round(|work| {
                 decimate(work, pass);
@@ -194,6 +220,7 @@ impl<'a> Run<'a> {
 
     /// Motion alone, over the whole mesh.
     fn move_all(&mut self) -> Result<(), Stop> {
+        self.guard = None;
         for i in 0..repair::FIRST_ROUNDS {
             if self.bad().is_empty() {
                 break;
@@ -205,6 +232,7 @@ impl<'a> Run<'a> {
 
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
+        self.guard = None;
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
             let bad = self.bad();
             if bad.is_empty() {
@@ -281,6 +309,7 @@ impl<'a> Run<'a> {
         // The generator's first output spreads neighbouring seeds.
         let seed = Random::new(seed).next();
         let mut work = Work::new(part.mesh, self.rules, &self.refills, part.failed, seed);
+        work.sizing = self.guard;
         job(&mut work);
         work.stats.steps = work.patch.steps();
         (Part { mesh: work.mesh, global: part.global, failed: work.failed }, work.stats)

@@ -55,7 +55,7 @@ mod result;
 mod sectors;
 mod sizing;
 mod validate;
-
+pub use carve::Carved;
 pub use error::{Feature, PslgError, ValidateError};
 pub use hexdel_optimize::Effort;
 pub use mesher::mesh;

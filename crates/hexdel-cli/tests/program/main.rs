@@ -6,5 +6,6 @@
 mod check;
 mod dual;
 mod generate;
+mod graph;
 mod mesh;
 mod support;

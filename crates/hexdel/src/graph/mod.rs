@@ -264,7 +264,7 @@ impl Mesher {
             boxed::forget_box(&mut made, graph);
         }
         verify::list_all(&mut made);
-        let segments = verify::segments(&made, graph, validated.divided(), domain);
+        let segments = verify::segments(&mut made, graph, &validated, domain);
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
         Ok(PslgTriangulation::new(made, segments, repaired, domain, watch.seconds()))
@@ -274,6 +274,7 @@ impl Mesher {
         let given = [
             ("the simple method", self.method == Method::Simple),
             ("the radius of a domain", self.domain_radius.is_some()),
+            ("the size of edges", self.size.is_some()),
             ("meshing without coarsening", self.without_coarsening),
         ];
         match given.into_iter().find(|(_, given)| *given) {

@@ -28,7 +28,7 @@ pub struct PslgReport<'a> {
     pub segment_edges: u32,
     /// How many edges each consists of; 0 in a hole or outside of the domain.
     pub edges_of_segment: &'a [u32],
-    /// Segments that edges were looked for and not found for.
+    /// Pieces of segments in the domain that are no unions of edges.
     pub segments_missing: usize,
     /// Triangles that only a corner of the input puts out of bounds.
     pub exempt: Vec<ExceptionEntry>,
@@ -93,7 +93,7 @@ impl<'a> PslgReport<'a> {
             segments: made.graph.segments.len(),
             segment_edges: made.edges_of_segment.iter().sum(),
             edges_of_segment: &made.edges_of_segment,
-            segments_missing: made.segments.segments - made.segments.kept,
+            segments_missing: made.segments.missing.len(),
             exempt: entries(&made.exempt),
             failed: entries(&made.failed),
             repairs: repairs.map(RepairEntry::new).collect(),

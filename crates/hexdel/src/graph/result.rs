@@ -105,7 +105,7 @@ impl PslgTriangulation {
             && broken == 0
             && c.delaunay
             && c.inputs_kept == c.inputs
-            && self.segments.kept == self.segments.segments
+            && self.segments.missing.is_empty()
     }
 
     /// The vertex of each point given, repaired or not; `None` for a point in a
