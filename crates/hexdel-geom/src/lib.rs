@@ -32,7 +32,7 @@ pub mod pslg;
 pub mod quality;
 pub mod rounding;
 
-mod double_double;
+pub mod double_double;
 mod incidence;
 mod scale;
 

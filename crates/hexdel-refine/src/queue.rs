@@ -5,12 +5,21 @@ use hexdel_grid::window::ones;
 use std::ops::Range;
 
 /// A set of tiles of one level, taken in the order of their ids.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Queue {
     /// A bit per tile id; clear beyond the end.
     words: Vec<u64>,
-    /// All words that are not zero lie in here; empty if there are none.
+    /// All words that are not zero lie in here; [`NONE`] if there are none.
     busy: Range<usize>,
+}
+
+/// No word, such that a word more is a minimum and a maximum.
+const NONE: Range<usize> = usize::MAX..0;
+
+impl Default for Queue {
+    fn default() -> Self {
+        Self { words: Vec::new(), busy: NONE }
+    }
 }
 
 impl Queue {
@@ -22,11 +31,7 @@ impl Queue {
             self.words.resize((word + 1).next_power_of_two(), 0);
         }
         self.words[word] |= 1 << bit;
-        self.busy = if self.busy.is_empty() {
-            word..word + 1
-        } else {
-            self.busy.start.min(word)..self.busy.end.max(word + 1)
-        };
+        self.busy = self.busy.start.min(word)..self.busy.end.max(word + 1);
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -42,8 +47,10 @@ impl Queue {
     /// Empties the queue; in order.
     pub(crate) fn take(&mut self) -> Vec<TileId> {
         let tiles = self.iter().collect();
-        self.words[self.busy.clone()].fill(0);
-        self.busy = 0..0;
+        if !self.is_empty() {
+            self.words[self.busy.clone()].fill(0);
+            self.busy = NONE;
+        }
         tiles
     }
 }
