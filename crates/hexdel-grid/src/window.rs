@@ -66,7 +66,10 @@ impl Window {
     }
 
     /// The hexagons whose neighbour in direction `d` is in this set.
-    #[expect(clippy::inline_always, reason = "directions are known where it counts: then these are a few shifts")]
+    #[expect(
+        clippy::inline_always,
+        reason = "directions are known where it counts: then these are a few shifts"
+    )]
     #[inline(always)]
     #[must_use]
     pub fn at(self, d: Direction) -> Self {

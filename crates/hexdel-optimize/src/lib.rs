@@ -8,17 +8,20 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | `options`, `error` | what the caller says and gets |
+//! | `options`, `constraints`, `error` | what the caller says and gets |
 //! | `outline` | [`kinds_of`]: what vertices may do, from the outline |
 //! | `schedule` | [`optimize`]: rounds of work over all parts of the mesh |
 //! | `partition` | cuts the mesh into parts, the same for any number of threads |
 //! | `repair` | brings all angles inside |
+//! | `rescue` | refines where repair gives up |
 //! | `decimate` | removes vertices |
+//! | `sizing` | [`Sizing`]: how long edges may be |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill` | candidate changes of topology and their ranking |
 //! | `work` | a mesh under work: patch, flips, commit, rollback |
 //! | `patch` | moves the vertices of a patch until its angles hold |
 //! | `flip` | Lawson flips in a patch |
+//! | [`live`] | a mesh that fixed vertices come to and go from |
 //! | `mesh` | the editable mesh with its journal |
 //! | `angles` | bounds as polynomial tests |
 //!
@@ -28,10 +31,12 @@
 
 mod angles;
 mod change;
+mod constraints;
 mod decimate;
 mod error;
 mod flip;
 mod import;
+pub mod live;
 mod mesh;
 mod options;
 mod outline;
@@ -40,11 +45,15 @@ mod patch;
 mod random;
 mod refill;
 mod repair;
+mod rescue;
 mod schedule;
 mod shake;
+mod sizing;
 mod work;
 
+pub use constraints::{AreaLimit, Constraints};
 pub use error::OptimizeError;
 pub use options::{Effort, Optimized, Options, Stats, VertexKind};
 pub use outline::kinds_of;
-pub use schedule::optimize;
+pub use schedule::{optimize, optimize_constrained, optimize_sized};
+pub use sizing::{SIZE_TOLERANCE, Sizing, edge_fits, triangle_fits};

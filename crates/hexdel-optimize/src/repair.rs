@@ -43,8 +43,9 @@ pub(crate) fn step(round: usize) -> Step {
 /// Rounds that come before removals: motion alone.
 pub(crate) const FIRST_ROUNDS: usize = 3;
 
-/// Rounds after which a mesh is given up.
-pub(crate) const ROUNDS: usize = 31;
+/// The steps of each round of search, after which a mesh is given up.
+pub(crate) const SEARCH: [(usize, usize); 7] =
+    [(3, 7), (7, 11), (11, 15), (15, 19), (19, 23), (23, 27), (27, 31)];
 
 /// Energy has to fall below this share for an unsolved patch to be kept.
 const KEEP_BELOW: f64 = 0.9;
@@ -74,7 +75,7 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
             }
             Step::Search { changes, rings, wide } => {
                 if !move_rings(work, t, rings) && work.is_bad(t) {
-                    search(work, t, changes, rings, wide);
+                    try_changes(work, t, changes, rings, wide);
                 }
             }
             Step::Thin if has_no_room(&work.mesh, t) => refine(work, t, f64::INFINITY),
@@ -84,8 +85,15 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
     }
 }
 
+/// Steps `from..to`, as long as triangles are bad.
+pub(crate) fn search(work: &mut Work, (from, to): (usize, usize)) {
+    for i in from..to {
+        repair(work, step(i));
+    }
+}
+
 /// Loads the patch of so many rings around triangle `t`.
-fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
+pub(crate) fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
     work.load(verts);
     for _ in 1..rings {
         work.grow();
@@ -97,7 +105,7 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
     let corners = work.mesh.tri[t as usize].v;
     for r in 1..=rings {
         load_rings(work, &corners, r);
-        let before = work.patch.state(work.limits).energy;
+        let before = work.patch.state(work.rules).energy;
         let last = r == rings;
         work.stats.repairs[0] += 1;
         let state = work.solve(if last { MOVE } else { Effort { near: 0.0, ..MOVE } });
@@ -117,13 +125,12 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
 
 /// Tries changes of topology near `t`, best first, and keeps the first that
 /// settles everything, or else the one that lowers the energy most.
-fn search(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
+fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let corners = work.mesh.tri[t as usize].v;
     let mut changes = Vec::new();
     load_rings(work, &corners, if wide { 2 } else { 1 });
     let around = work.patch.vertices().to_vec();
-    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }
-        .find(t, &around);
+    Finder { mesh: &work.mesh, rules: work.rules, refills: work.refills, out: &mut changes }.find(t, &around);
     let mut ranked: Vec<(f64, Action)> = Vec::new();
     for change in changes.into_iter().take(most) {
         let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else {
@@ -190,7 +197,7 @@ fn attempt(
     };
     join(&mut verts);
     load_rings(work, &verts, rings);
-    let before = work.patch.state(work.limits).energy;
+    let before = work.patch.state(work.rules).energy;
     if !apply(&mut work.mesh, work.refills, action, &mut verts) {
         work.mesh.rollback();
         return None;
@@ -225,7 +232,7 @@ fn has_no_room(mesh: &Mesh, t: u32) -> bool {
 fn refine(work: &mut Work, t: u32, below: f64) {
     let mut verts = work.mesh.tri[t as usize].v.to_vec();
     load_rings(work, &verts, 3);
-    let before = work.patch.state(work.limits).energy;
+    let before = work.patch.state(work.rules).energy;
     let mut made = Vec::new();
     for i in 0..3 {
         let (a, b) = (verts[i], verts[(i + 1) % 3]);

@@ -32,7 +32,7 @@ impl<'a> AreaLimits<'a> {
         let mut by_triangle = vec![f64::INFINITY; plane.tri_count() as usize];
         let mut seen = vec![false; by_triangle.len()];
         for region in regions {
-            let (Place::Inside(t) | Place::Edge(t, _)) = plane.locate(region.point, NONE) else { continue };
+            let Some(t) = plane.part_at(region.point, NONE) else { continue };
             flood(plane, vec![t], |t| {
                 if let Some(area) = region.max_area
                     && !seen[t as usize]
@@ -51,6 +51,16 @@ impl<'a> AreaLimits<'a> {
             }
         }
         Some(Self { plane, by_triangle, circle })
+    }
+
+    /// The triangles of a mesh that are larger than allowed where their
+    /// centroids lie.
+    pub(crate) fn exceeded(&self, net: &Net) -> Vec<u32> {
+        let large = |&t: &u32| {
+            let [a, b, c] = net.corners(t);
+            0.5 * (b - a).perp_dot(c - a) > self.at((a + b + c) / 3.0)
+        };
+        net.alive().filter(large).collect()
     }
 
     /// The limit at a place.

@@ -54,7 +54,14 @@ fn families_keep_their_bounds() {
 #[test]
 fn two_rings_away_the_plain_bounds_hold() {
     let pslg = support::family("letter R", 7);
-    let made = made(&pslg, &Options::new());
+    assert!(far_triangles(&made(&pslg, &Options::new().compact(None))) > 200);
+    assert!(far_triangles(&made(&pslg, &Options::new().max_area(0.01))) > 100);
+    assert!(far_triangles(&made(&pslg, &Options::new())) > 0);
+}
+
+/// How many triangles have all corners two edges or more away from the graph;
+/// they keep the bounds of the plain mesh.
+fn far_triangles(made: &PslgMesh) -> u32 {
     let mut ring = vec![u32::MAX; made.mesh.vertices.len()];
     for v in made.edges.iter().filter(|e| e.segment.is_some()).flat_map(|e| e.ends) {
         ring[v.index()] = 0;
@@ -71,7 +78,7 @@ fn two_rings_away_the_plain_bounds_hold() {
             }
         }
     }
-    let mut far = 0;
+    let mut far: u32 = 0;
     for (i, t) in made.mesh.triangles.iter().enumerate() {
         if t.iter().all(|v| ring[v.index()] >= 2) {
             far += 1;
@@ -81,7 +88,7 @@ fn two_rings_away_the_plain_bounds_hold() {
             assert!(angles.iter().all(|&a| a >= least && a <= 90.0 + 1e-9), "{corners:?} {angles:?}");
         }
     }
-    assert!(far > 100);
+    far
 }
 
 #[test]
@@ -198,6 +205,25 @@ fn markers_follow_triangles_habits() {
     }
     let of_first = made.edges.iter().filter(|e| e.segment == Some(0)).count();
     assert_eq!(made.edges_of_segment[0] as usize, of_first);
+}
+
+#[test]
+fn a_hole_or_region_on_a_vertex_of_the_mesh_counts() {
+    // The centre of the input is where the grid has a vertex.
+    let mut pslg = square(-2.0, 4.0);
+    append(&mut pslg, &square(-1.0, 2.0));
+    pslg.holes.push(DVec2::ZERO);
+    let options = Options::new().extent(Extent::Inside);
+    let carved = made(&pslg, &options.clone().max_area(0.01));
+    let total: f64 = (0..carved.mesh.triangles.len()).map(|t| area(&carved, t)).sum();
+    assert!((total - 12.0).abs() < 1e-9, "{total}");
+
+    pslg.holes.clear();
+    pslg.regions.push(Region { point: DVec2::ZERO, attribute: 7.0, max_area: Some(0.005) });
+    let divided = made(&pslg, &options);
+    let of_region = divided.region_of_triangle.iter().zip(0..).filter(|(region, _)| region.is_some());
+    let total: f64 = of_region.map(|(_, t)| area(&divided, t)).inspect(|a| assert!(*a <= 0.005)).sum();
+    assert!((total - 4.0).abs() < 1e-9, "{total}");
 }
 
 #[test]

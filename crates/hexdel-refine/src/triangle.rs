@@ -56,8 +56,7 @@ pub fn victim_of(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
     let [x, y, z] = corners;
     let asked = [(x, y), (y, z), (z, x)].into_iter().any(|(a, b)| foreign(a, b) || foreign(b, a));
     let three = corners.iter().any(|&at| c.moved3.contains(at));
-    let breaks =
-        || !ExactBounds::EXTENDED.hold(corners.map(|at| Offset::of(at) + m.template(at).offset()));
+    let breaks = || !ExactBounds::EXTENDED.hold(corners.map(|at| Offset::of(at) + m.template(at).offset()));
     (asked && !three && breaks()).then(|| m.victim(corners))
 }
 

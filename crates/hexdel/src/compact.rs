@@ -5,9 +5,10 @@
 //! free. The optimiser itself is left to `hexdel-optimize`.
 
 use crate::error::Error;
+use crate::size::Size;
 use hexdel_classify::Dual;
 use hexdel_geom::{AngleBounds, Monitor, Phase, VertexId};
-use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize};
+use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize, optimize_sized};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -20,31 +21,44 @@ pub(crate) fn options(bounds: AngleBounds, effort: Effort, budget: Option<Durati
     }
 }
 
-/// Optimises a mesh of the grid in place; false if angles are left outside the
-/// bounds, be it only by rounding.
+/// How optimisation ended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ended {
+    /// Whether every angle is within the bounds, leaving aside rounding.
+    pub(crate) reached: bool,
+    /// Whether the budget ended it.
+    pub(crate) spent: bool,
+}
+
+/// Optimises a mesh of the grid in place.
 pub(crate) fn optimize_dual(
     dual: &mut Dual,
     options: &Options,
+    size: Option<&Size>,
     monitor: &dyn Monitor,
-) -> Result<bool, Error> {
+) -> Result<Ended, Error> {
     let mut fixed = vec![false; dual.mesh.vertices.len()];
     for v in &dual.vertex_of_occupant {
         fixed[v.index()] = true;
     }
     let kinds = kinds_of(&dual.mesh, |v: VertexId| fixed[v.index()]);
     let mesh = std::mem::take(&mut dual.mesh);
-    let (optimized, reached) = match optimize(mesh, &kinds, options, monitor) {
+    let done = match size {
+        None => optimize(mesh, &kinds, options, monitor),
+        Some(size) => optimize_sized(mesh, &kinds, options, size, monitor),
+    };
+    let (optimized, reached) = match done {
         Ok(optimized) => (optimized, true),
         Err(OptimizeError::Unreached { best, .. }) => (*best, false),
         Err(OptimizeError::Cancelled(c)) => return Err(Error::Cancelled(c)),
         Err(error) => return Err(Error::Optimize(error)),
     };
-    let Optimized { mesh, vertices, .. } = optimized;
+    let Optimized { mesh, vertices, finished, .. } = optimized;
     dual.mesh = mesh;
     for v in &mut dual.vertex_of_occupant {
         *v = vertices[v.index()].expect("fixed vertices are never removed");
     }
-    Ok(reached)
+    Ok(Ended { reached, spent: !finished })
 }
 
 /// A monitor to whom work that starts anew looks like more of the same phase.

@@ -1,8 +1,11 @@
 //! Options, and the one call.
 
-use crate::compact::{self, Again};
+use crate::compact::{self, Again, Ended};
 use crate::error::Error;
+use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
+use crate::size::{Size, SizeError};
+use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
 use hexdel_classify::{Domain, Dual, Relocation, extract};
 use hexdel_geom::monitor::check;
@@ -10,7 +13,7 @@ use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
     certify, restore_delaunay, settle_rounding,
 };
-use hexdel_optimize::Effort;
+use hexdel_optimize::{Effort, SIZE_TOLERANCE};
 use hexdel_refine::{Refiner, RuleSet, Start as Coarse};
 use std::time::{Duration, Instant};
 
@@ -54,13 +57,16 @@ impl Method {
     }
 }
 
-/// A mesh of the grid.
+/// The mesh of the grid that a mesh was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Start {
+#[non_exhaustive]
+pub enum Start {
+    /// All rules and templates of section 5.
     Templates,
+    /// The rules of section 4.
     Simple,
-    /// Legal classes only, a third of the triangles of the templates: to be
-    /// repaired.
+    /// Legal classes only, a third of the triangles of the templates: repaired
+    /// by [`Method::Compact`].
     Coarse,
 }
 
@@ -82,7 +88,10 @@ impl Start {
     }
 }
 
-/// Meshes points, with options.
+/// Meshes points, or a graph of points and segments, with options.
+///
+/// Options say what they are for where it is not both: one that the call has no
+/// use for is [`Error::NotForPoints`] or [`Error::NotForGraphs`].
 ///
 /// ```
 /// use hexdel::{DVec2, Mesher, Method};
@@ -94,13 +103,17 @@ impl Start {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Mesher {
-    method: Method,
-    bounds: Option<AngleBounds>,
-    domain_radius: Option<f64>,
+    pub(crate) method: Method,
+    pub(crate) bounds: Option<AngleBounds>,
+    pub(crate) domain_radius: Option<f64>,
+    /// Centre of the domain, if it is not that of the points.
+    centre: Option<DVec2>,
+    pub(crate) size: Option<Size>,
     threads: Option<usize>,
-    without_coarsening: bool,
+    pub(crate) without_coarsening: bool,
     effort: Effort,
     budget: Option<Duration>,
+    pub(crate) graph: GraphOptions,
 }
 
 /// Meshes points with the default options.
@@ -150,7 +163,9 @@ impl Mesher {
 
     /// The bounds that the mesh is held to, by default those the method keeps.
     /// They may be wider; narrower ones are for
-    /// [`Method::Compact`] only.
+    /// [`Method::Compact`] only. Of graphs, the default is 30 to 90 degrees in
+    /// triangles at most one edge away from a point or segment, and 43.9 to 90
+    /// elsewhere.
     ///
     /// ```
     /// # use hexdel::{AngleBounds, DVec2, Error, Mesher};
@@ -165,7 +180,7 @@ impl Mesher {
         self
     }
 
-    /// Circumradius of the hexagon that the mesh covers, in input units. Its
+    /// Circumradius of the hexagon that a mesh of points covers, in input units. Its
     /// centre is that of the points' smallest enclosing circle, two of its
     /// corners lie east and west. By default as small as the method allows.
     ///
@@ -180,6 +195,33 @@ impl Mesher {
     pub fn domain_radius(mut self, radius: f64) -> Self {
         self.domain_radius = Some(radius);
         self
+    }
+
+    /// How long edges may be, by default as long as the points allow. Every edge
+    /// keeps to it at both ends and its middle; for points only.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Size};
+    /// let size = Size::constant(0.1)?;
+    /// let made = Mesher::new().size(size).triangulate(&[DVec2::ZERO, DVec2::X])?;
+    /// assert!(made.size_ratio.is_some_and(|ratio| ratio < 1.0 + 1e-8));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn size(mut self, size: Size) -> Self {
+        self.size = Some(size);
+        self
+    }
+
+    /// The domain is a hexagon around this centre, whatever the points'.
+    pub(crate) fn around(mut self, centre: DVec2, radius: f64) -> Self {
+        (self.centre, self.domain_radius) = (Some(centre), Some(radius));
+        self
+    }
+
+    /// What a session keeps of the options.
+    pub(crate) fn for_session(&self) -> (Effort, Option<Size>) {
+        (self.effort, self.size.clone())
     }
 
     /// How many threads work, by default as many as the machine has. The mesh
@@ -200,7 +242,7 @@ impl Mesher {
     }
 
     /// Whether hexagons are merged again where all rules allow it (section
-    /// 5.3): a tenth fewer triangles. On by default.
+    /// 5.3): a tenth fewer triangles. On by default; always, for graphs.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, generate};
@@ -292,17 +334,26 @@ impl Mesher {
         points: &[DVec2],
         monitor: &dyn Monitor,
     ) -> Result<Triangulation, Error> {
+        self.on_threads(|| self.run(points, monitor))
+    }
+
+    /// Works on as many threads as asked for.
+    pub(crate) fn on_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> Result<T, Error> + Send,
+    ) -> Result<T, Error> {
         let Some(threads) = self.threads else {
-            return self.run(points, monitor);
+            return work();
         };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .map_err(|_| Error::Threads { threads })?;
-        pool.install(|| self.run(points, monitor))
+        pool.install(work)
     }
 
     fn run(&self, points: &[DVec2], monitor: &dyn Monitor) -> Result<Triangulation, Error> {
+        self.graph.refuse_for_points()?;
         let kept = self.method.bounds();
         let bounds = self.bounds.unwrap_or(kept);
         let compact = self.method == Method::Compact;
@@ -310,7 +361,8 @@ impl Mesher {
             return Err(Error::BoundsBeyondMethod { asked: bounds, kept });
         }
         let set = PointSet::new(points)?;
-        let placement = Placement::new(&set, self.domain_radius)?;
+        let placement = Placement::around(&set, self.domain_radius, self.centre)?;
+        self.check_size(&placement)?;
         let starts = self.method.starts(self.budget);
         let mut again = Again::new(monitor);
         for start in &starts[..starts.len() - 1] {
@@ -320,6 +372,7 @@ impl Mesher {
                     Error::Unreached { .. }
                     | Error::NotCertified { .. }
                     | Error::Delaunay(_)
+                    | Error::Size(SizeError::Unreached { .. })
                     | Error::Optimize(_),
                 ) => {
                     again.restart();
@@ -350,29 +403,38 @@ impl Mesher {
 
         let relocation = start.relocation();
         let domain = placement.domain(refiner.grid(), relocation)?;
-        let occupants = refiner.occupants();
-        let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
-        let mut reached = true;
+        let (mut dual, domain) = match &self.size {
+            Some(size) => Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?,
+            None => {
+                let occupants = refiner.occupants();
+                (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
+            }
+        };
+        let mut ended = Ended { reached: true, spent: false };
         if self.method == Method::Compact {
             let options = compact::options(bounds, self.effort, self.budget);
-            reached = compact::optimize_dual(&mut dual, &options, monitor)?;
+            ended = compact::optimize_dual(&mut dual, &options, self.size.as_ref(), monitor)?;
         }
         let extracted = Instant::now();
 
         check(monitor)?;
         let certificate = match self.finish(&mut dual, bounds, placement, points, monitor) {
-            Err(Error::NotCertified { mesh, certificate }) if !reached => {
+            Err(Error::NotCertified { mesh, certificate }) if !ended.reached => {
                 return Err(Error::Unreached { mesh, certificate });
             }
             done => done?,
         };
+        let size_ratio = self.size_ratio(&dual.mesh)?;
         let certified = Instant::now();
         let of_input = set.site_of_input().iter().map(|&site| dual.vertex_of_occupant[site as usize]);
         Ok(Triangulation {
             vertex_of_input: of_input.collect(),
             mesh: dual.mesh,
             certificate,
+            size_ratio,
             method: self.method,
+            start,
+            budget_spent: ended.spent,
             patch: patch(placement, domain),
             max_level: deepest(&refiner) - domain.base_level,
             seconds: Seconds {
@@ -383,6 +445,25 @@ impl Mesher {
             },
             refiner,
         })
+    }
+
+    /// Refuses sizes that coordinates do not resolve in the domain.
+    fn check_size(&self, placement: &Placement) -> Result<(), SizeError> {
+        let lattice = &placement.lattice;
+        let reach = lattice.origin().abs().max_element() + lattice.spacing(0);
+        self.size.as_ref().map_or(Ok(()), |s| s.check(placement::finest_spacing(DVec2::splat(reach))))
+    }
+
+    /// The longest edge over what is wanted.
+    fn size_ratio(&self, mesh: &TriMesh) -> Result<Option<f64>, SizeError> {
+        let Some(size) = &self.size else {
+            return Ok(None);
+        };
+        let (ratio, at, length) = sized::worst(mesh, size);
+        if ratio > 1.0 + SIZE_TOLERANCE {
+            return Err(SizeError::Unreached { at, length });
+        }
+        Ok(Some(ratio))
     }
 
     /// Makes the mesh exactly Delaunay and certifies it.
@@ -408,7 +489,7 @@ impl Mesher {
         let options = CertifyOptions {
             bounds,
             inputs: Some(points),
-            min_edge: placement.shortest_edge.filter(|_| !compact),
+            min_edge: placement.shortest_edge.filter(|_| !compact && self.size.is_none()),
             ..CertifyOptions::default()
         };
         let certificate = certify(&dual.mesh, &options);

@@ -1,6 +1,6 @@
 //! The result: a mesh, what it promises, and how it was made.
 
-use crate::mesher::Method;
+use crate::mesher::{Method, Start};
 use hexdel_classify::Domain;
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId};
 use hexdel_refine::Refiner;
@@ -15,8 +15,17 @@ pub struct Triangulation {
     pub vertex_of_input: Vec<VertexId>,
     /// What the mesh was found to keep.
     pub certificate: Certificate,
+    /// The longest edge over the length wanted there, if any was: at most 1 but
+    /// for [`SIZE_TOLERANCE`](hexdel_optimize::SIZE_TOLERANCE).
+    pub size_ratio: Option<f64>,
     /// How it was made.
     pub method: Method,
+    /// The mesh of the grid that was the start: for [`Method::Compact`] the
+    /// templates' only where the coarse one did not lead to the bounds, or with
+    /// a budget.
+    pub start: Start,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// What it covers.
     pub patch: Patch,
     /// Levels used below the coarsest.
@@ -56,9 +65,16 @@ pub struct Seconds {
 pub struct Report<'a> {
     /// How the mesh was made.
     pub method: &'static str,
+    /// The mesh of the grid that was the start.
+    pub start: &'static str,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
+    /// The longest edge over the length wanted there, if any was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_ratio: Option<f64>,
     /// Levels used below the coarsest.
     pub max_level: u8,
     /// Circumradius of the domain, in input units.
@@ -84,7 +100,14 @@ impl Triangulation {
                 Method::Simple => "simple",
                 Method::Compact => "compact",
             },
+            start: match self.start {
+                Start::Templates => "templates",
+                Start::Simple => "simple",
+                Start::Coarse => "coarse",
+            },
+            budget_spent: self.budget_spent,
             certificate: &self.certificate,
+            size_ratio: self.size_ratio,
             max_level: self.max_level,
             domain_radius: self.patch.radius,
             seconds: self.seconds,

@@ -4,6 +4,8 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 mod check;
+mod dual;
 mod generate;
+mod graph;
 mod mesh;
 mod support;
