@@ -2,23 +2,22 @@
 
 use hexdel_grid::TileId;
 use hexdel_grid::window::ones;
-use std::ops::Range;
 
 /// A set of tiles of one level, taken in the order of their ids.
 #[derive(Clone, Debug)]
 pub(crate) struct Queue {
     /// A bit per tile id; clear beyond the end.
     words: Vec<u64>,
-    /// All words that are not zero lie in here; [`NONE`] if there are none.
-    busy: Range<usize>,
+    /// All words that are not zero lie from here ..
+    start: usize,
+    /// .. to before here; if there are none, this is 0 and the start is the
+    /// largest of numbers, such that a word more is a minimum and a maximum.
+    end: usize,
 }
-
-/// No word, such that a word more is a minimum and a maximum.
-const NONE: Range<usize> = usize::MAX..0;
 
 impl Default for Queue {
     fn default() -> Self {
-        Self { words: Vec::new(), busy: NONE }
+        Self { words: Vec::new(), start: usize::MAX, end: 0 }
     }
 }
 
@@ -31,16 +30,16 @@ impl Queue {
             self.words.resize((word + 1).next_power_of_two(), 0);
         }
         self.words[word] |= 1 << bit;
-        self.busy = self.busy.start.min(word)..self.busy.end.max(word + 1);
+        (self.start, self.end) = (self.start.min(word), self.end.max(word + 1));
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.busy.is_empty()
+        self.end == 0
     }
 
     /// The tiles, in order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = TileId> {
-        let words = self.busy.clone().map(|word| (64 * word, self.words[word]));
+        let words = (self.start..self.end).map(|word| (64 * word, self.words[word]));
         words.flat_map(|(first, word)| ones(word).map(move |bit| TileId::new(first + bit as usize)))
     }
 
@@ -48,8 +47,8 @@ impl Queue {
     pub(crate) fn take(&mut self) -> Vec<TileId> {
         let tiles = self.iter().collect();
         if !self.is_empty() {
-            self.words[self.busy.clone()].fill(0);
-            self.busy = NONE;
+            self.words[self.start..self.end].fill(0);
+            (self.start, self.end) = (usize::MAX, 0);
         }
         tiles
     }

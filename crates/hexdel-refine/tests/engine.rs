@@ -187,7 +187,8 @@ fn the_same_bytes_at_one_two_and_eight_threads() {
 /// smallest lattice hexagon around them, over all six sides.
 fn excess_of_closure(seeds: &[Hex]) -> i64 {
     const LEVEL: u8 = 7;
-    let mut refiner = Refiner::new(Lattice::new(DVec2::ZERO, 1.0), RuleSet::extended()).with_coarsening(false);
+    let mut refiner =
+        Refiner::new(Lattice::new(DVec2::ZERO, 1.0), RuleSet::extended()).with_coarsening(false);
     let seeds_at = seeds.iter().map(|&hex| Address::new(LEVEL, hex));
     refiner.subdivide_all(seeds_at, &Unwatched).expect("there are levels enough");
     assert_eq!(refiner.violation(), None);
@@ -216,8 +217,7 @@ fn a_level_closes_about_within_the_hexagon_around_what_it_began_with() {
         };
         // Discs, rings and arcs with holes in them.
         let from = if i % 2 == 0 { 0 } else { radius - radius.min(2) };
-        let seeds: Vec<Hex> =
-            (from..=radius).flat_map(|n| Hex::ORIGIN.ring(n)).filter(&mut pick).collect();
+        let seeds: Vec<Hex> = (from..=radius).flat_map(|n| Hex::ORIGIN.ring(n)).filter(&mut pick).collect();
         if !seeds.is_empty() {
             worst = worst.max(excess_of_closure(&seeds));
         }
