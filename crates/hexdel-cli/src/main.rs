@@ -1,12 +1,14 @@
 //! The program `hexdel`: meshes files of points and segments, checks and draws
 //! meshes, makes test points.
 //!
-//! One module per command ([`mesh`], [`check`], [`plot`], [`dual`], [`generate`]),
-//! and what they share: which files are written and when ([`outputs`]), the bar on a terminal
+//! One module per command ([`mesh`], [`check`], [`plot`], [`convert`], [`dual`],
+//! [`generate`], [`session`]), and what they
+//! share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
 mod check;
+mod convert;
 mod dual;
 mod exit;
 mod generate;
@@ -14,6 +16,8 @@ mod mesh;
 mod outputs;
 mod plot;
 mod progress;
+mod session;
+mod sizing;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -39,8 +43,10 @@ enum Command {
     Mesh(mesh::Args),
     Check(check::Args),
     Plot(plot::Args),
+    Convert(convert::Args),
     Dual(dual::Args),
     Generate(generate::Args),
+    Session(session::Args),
 }
 
 fn main() -> ExitCode {
@@ -48,8 +54,10 @@ fn main() -> ExitCode {
         Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Plot(args) => plot::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
+        Command::Session(args) => session::run(&args),
     };
     exit::finish(outcome)
 }

@@ -65,8 +65,8 @@ impl Triangulation {
     /// coarsest. None of [`Method::Compact`], whose mesh is no dual of hexagons.
     ///
     /// ```
-    /// # use hexdel::DVec2;
-    /// let made = hexdel::triangulate(&[DVec2::ZERO, DVec2::X])?;
+    /// # use hexdel::{DVec2, Mesher, Method};
+    /// let made = Mesher::new().method(Method::Templates).triangulate(&[DVec2::ZERO, DVec2::X])?;
     /// let levels = made.levels().ok_or("no dual")?;
     /// assert_eq!(levels.classes.len(), usize::from(made.max_level) + 1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -95,7 +95,7 @@ impl Triangulation {
     /// ```
     /// # use hexdel::{DVec2, Mesher, Method};
     /// let points = [DVec2::ZERO, DVec2::X];
-    /// let made = hexdel::triangulate(&points)?;
+    /// let made = Mesher::new().method(Method::Templates).triangulate(&points)?;
     /// assert!(made.classes().is_some());
     /// let compact = Mesher::new().method(Method::Compact).triangulate(&points)?;
     /// assert!(compact.classes().is_none());
@@ -224,7 +224,8 @@ mod tests {
 
     #[test]
     fn finer_levels_have_smaller_triangles() {
-        let made = crate::triangulate(&generate(Kind::Clusters, 60, 3)).unwrap();
+        let templates = Mesher::new().method(Method::Templates);
+        let made = templates.triangulate(&generate(Kind::Clusters, 60, 3)).unwrap();
         let levels = made.levels().unwrap();
         assert_eq!(levels.classes.len(), usize::from(made.max_level) + 1);
         let base = made.refiner.grid().lattice().spacing(made.patch.domain.base_level);

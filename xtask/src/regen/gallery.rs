@@ -144,7 +144,7 @@ What random points and what letters the paper has is not published: these are li
 `cargo xtask regen` makes this page and its pictures. One by one they come from
 
 ```sh
-hexdel mesh fixtures/points/plane100.node -o out/plane.png --histogram --size 600
+hexdel mesh fixtures/points/plane100.node -o out/plane.png --histogram --size 600 --method templates
 hexdel mesh fixtures/points/plane100.node -o out/plane.svg --histogram --size 600 --method compact
 ```
 

@@ -5,7 +5,7 @@ use crate::support::{Bench, fixture};
 /// A bench with a mesh of a hundred points.
 fn meshed() -> Bench {
     let bench = Bench::new();
-    bench.run(&format!("mesh {} -q -o m.ele", fixture("points/plane100.node"))).fine();
+    bench.run(&format!("mesh {} -q --method templates -o m.ele", fixture("points/plane100.node"))).fine();
     bench
 }
 
@@ -49,15 +49,15 @@ fn mesh_draws_levels_and_classes() {
         bench.run(&format!("mesh {input} -q -o p.svg {options}")).fine();
         String::from_utf8(bench.read("p.svg")).unwrap()
     };
-    assert!(picture("--colour level").contains(">level 0: "));
-    assert!(picture("--colour class --grid").contains(">moved centre 3: "));
+    assert!(picture("--method templates --colour level").contains(">level 0: "));
+    assert!(picture("--method templates --colour class --grid").contains(">moved centre 3: "));
     let simple = picture("--method simple --colour class");
     assert!(simple.contains(">occupied: 6") && !simple.contains("moved"));
     let simple = picture("--method simple --grid");
     assert!(simple.contains(">occupied<") && !simple.contains("moved"));
-    assert!(picture("--histogram").contains("square root"));
+    assert!(picture("--method simple --histogram").contains("square root"));
     assert!(picture("--method compact --effort fast --grid").contains(">hexagons<"));
-    bench.run(&format!("mesh {input} -q -o p.png --size 64 --zoom 0,0,1,1")).fine();
+    bench.run(&format!("mesh {input} -q --method simple -o p.png --size 64 --zoom 0,0,1,1")).fine();
     assert!(bench.read("p.png").starts_with(b"\x89PNG"));
 }
 
@@ -109,8 +109,8 @@ fn what_cannot_be_drawn_is_refused() {
         ("plot m.ele -o p.svg --min-angle 61", "no triangle has all angles"),
         ("plot m.ele -o p.svg --min-angle -1", "no triangle has all angles"),
         ("mesh INPUT -o p.svg --method compact --colour level", "the compact method tells no levels"),
-        ("mesh INPUT -o p.svg --colour region", "the mesh has no regions"),
-        ("mesh INPUT -o p.svg -o p.ele --zoom 9,9,10,10", "lies beside the mesh"),
+        ("mesh INPUT -o p.svg --method simple --colour region", "the mesh has no regions"),
+        ("mesh INPUT -o p.svg -o p.ele --method simple --zoom 9,9,10,10", "lies beside the mesh"),
     ] {
         bench.run(&arguments.replace("INPUT", &input)).refused(words);
         assert_eq!(bench.names(), before, "{arguments}");
