@@ -81,18 +81,24 @@ fn surplus(docs: &Path, files: &Files) -> std::io::Result<Vec<String>> {
     Ok(surplus)
 }
 
-/// Removes the records of fixtures that are gone: `points-a-simple.snap` is the
-/// record of `fixtures/points/a.node`.
+/// Removes the records of fixtures that are gone.
 fn remove_orphans(root: &Path) -> Outcome {
     for name in names(&root.join(RECORDS))? {
-        let parts = name.split_once('-').and_then(|(folder, rest)| Some((folder, rest.rsplit_once('-')?.0)));
-        let fixture =
-            parts.map(|(folder, stem)| root.join("fixtures").join(folder).join(format!("{stem}.node")));
-        if !fixture.is_some_and(|path| path.exists()) {
+        if !fixture_of(&name).is_some_and(|path| root.join("fixtures").join(path).exists()) {
             std::fs::remove_file(root.join(RECORDS).join(name))?;
         }
     }
     Ok(())
+}
+
+/// Where the fixture of a record is, below the fixtures: `points-a-simple.snap` is
+/// that of `points/a.node`, `graphs-b.snap` that of `graphs/b.poly`.
+fn fixture_of(record: &str) -> Option<String> {
+    let (folder, rest) = record.split_once('-')?;
+    match rest.rsplit_once('-') {
+        Some((stem, _)) if folder != "graphs" => Some(format!("{folder}/{stem}.node")),
+        _ => Some(format!("{folder}/{}.poly", rest.split_once('.')?.0)),
+    }
 }
 
 /// Runs the tests that keep the records.
@@ -102,7 +108,7 @@ fn records(root: &Path, check: bool) -> Outcome {
     cargo.env("INSTA_UPDATE", if check { "no" } else { "always" }).env_remove("INSTA_FORCE_PASS");
     if !check {
         // Whether all records are there is a question for afterwards.
-        cargo.args(["--", "templates", "simple"]);
+        cargo.args(["--", "templates", "simple", "graphs"]);
     }
     let status = cargo.status()?;
     if status.success() { Ok(()) } else { Err("the records of the snapshot tests do not hold".into()) }
@@ -123,6 +129,23 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn records_have_fixtures() {
+        for (record, fixture) in [
+            ("points-a-b-simple.snap", Some("points/a-b.node")),
+            ("graphs-b.snap", Some("graphs/b.poly")),
+            ("graphs-b-c.snap", Some("graphs/b-c.poly")),
+            ("other", None),
+        ] {
+            assert_eq!(fixture_of(record).as_deref(), fixture);
+        }
+        let root = tidy::root();
+        for record in names(&root.join(RECORDS)).unwrap() {
+            let fixture = fixture_of(&record).unwrap();
+            assert!(root.join("fixtures").join(fixture).exists(), "{record}");
+        }
+    }
 
     #[test]
     fn figures_that_differ_are_missing_or_surplus_are_named() {
