@@ -75,8 +75,8 @@ const INPUTS: [Input; 6] = [
     Input {
         name: "letters",
         title: "Letters",
-        text: "The outlines of I, M and R as segments, their detail growing from I to R. Triangles at segments \
-               keep 30 to 90 degrees, all others 43.9 to 90.\nSegments are drawn heavier.",
+        text: "The outlines of I, M and R as segments, their detail growing from I to R; all angles keep\n\
+               30 to 90 degrees. Segments are drawn heavier.",
         from: From::Fixture("graphs/letters.poly"),
         radius: None,
         close_up: Some(LETTER_R),
