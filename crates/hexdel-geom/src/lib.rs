@@ -16,6 +16,7 @@
 //! | [`quality`] | angles and aspect ratio of one triangle |
 //! | [`certificate`] | [`certify`]: what a finished mesh keeps, checked from scratch |
 //! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
+//! | [`segment`] | points of a segment, rounded once |
 //! | [`rounding`] | [`settle_rounding`]: moves by units in the last place where rounding spoilt an angle |
 //! | [`voronoi`] | [`Voronoi`]: circumcentres, cells, control volumes and cotangent weights |
 //! | [`segments`] | [`check_segments`]: whether segments are unions of edges |
@@ -33,10 +34,11 @@ pub mod predicates;
 pub mod pslg;
 pub mod quality;
 pub mod rounding;
+pub mod segment;
 pub mod segments;
 pub mod voronoi;
 
-mod double_double;
+pub mod double_double;
 mod incidence;
 mod scale;
 
@@ -54,5 +56,6 @@ pub use points::{PointSet, PointsError};
 pub use predicates::{incircle, orient2d};
 pub use pslg::{Pslg, PslgLayoutError, Region};
 pub use rounding::settle_rounding;
+pub use segment::point_on_segment;
 pub use segments::{MissingSegment, SegmentCheck, check_segments};
 pub use voronoi::{Voronoi, VoronoiEdge, VoronoiError, VoronoiSummary};

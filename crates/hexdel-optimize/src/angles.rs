@@ -177,6 +177,53 @@ impl Limits {
 /// lengths, negative.
 type Excess = Option<(usize, f64)>;
 
+/// Where a triangle lies: near segments or not (bit 3), and at which corners its
+/// angle is the input's (bits 0 to 2).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Place(u8);
+
+/// The bits of corners whose angle is the input's.
+const EXCUSED: u8 = 7;
+
+/// The cotangent of 60 degrees, which is inside all bounds that a mesh can keep.
+const COT_INSIDE: f64 = 0.577_350_269_189_625_8;
+
+impl Place {
+    /// `bound` are the sides that lie on segments: bit `i` that opposite
+    /// corner `i`.
+    pub(crate) fn new(near: bool, bound: u8) -> Self {
+        // Corner i is between the two other sides.
+        let between = match bound {
+            0b110 => 1,
+            0b101 => 2,
+            0b011 => 4,
+            0b111 => 7,
+            _ => 0,
+        };
+        Self(between | u8::from(near) << 3)
+    }
+
+    #[inline]
+    pub(crate) fn is_near(self) -> bool {
+        self.0 & 8 != 0
+    }
+
+    /// The triangle as the lower bound sees it: a corner whose angle is the
+    /// input's is wide enough.
+    #[inline]
+    pub(crate) fn view(self, m: Measure) -> Measure {
+        if self.0 & EXCUSED == 0 || m.cross <= 0.0 { m } else { self.excuse(m) }
+    }
+
+    #[cold]
+    fn excuse(self, mut m: Measure) -> Measure {
+        for k in (0..3).filter(|k| self.0 >> k & 1 == 1) {
+            m.dot[k] = m.dot[k].min(m.cross * COT_INSIDE);
+        }
+        m
+    }
+}
+
 /// Cross product (twice the signed area) and the dot products at the corners
 /// of a triangle.
 #[derive(Clone, Copy, Debug)]

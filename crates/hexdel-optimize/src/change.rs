@@ -6,9 +6,10 @@
 
 use hexdel_geom::DVec2;
 
-use crate::angles::{Limits, Measure};
+use crate::angles::Measure;
+use crate::constraints::Rules;
 use crate::mesh::{Mesh, Motion, NONE};
-use crate::refill::{MAX_CORNERS, Refills, degree_cost};
+use crate::refill::{Corner, MAX_CORNERS, Refills};
 
 /// What is done to the disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +56,7 @@ const SHAPE_WEIGHT: f64 = 0.1;
 /// Lists changes near triangle `t`.
 pub(crate) struct Finder<'a> {
     pub(crate) mesh: &'a Mesh,
-    pub(crate) limits: &'a Limits,
+    pub(crate) rules: &'a Rules<'a>,
     pub(crate) refills: &'a Refills,
     pub(crate) out: &'a mut Vec<Change>,
 }
@@ -104,9 +105,17 @@ impl Finder<'_> {
         }
     }
 
-    fn cost_at(&self, v: u32, degree: usize) -> f64 {
-        degree_cost(self.limits, self.mesh.sector[v as usize], degree)
-            - degree_cost(self.limits, self.mesh.sector[v as usize], self.mesh.degree(v))
+    /// The change of cost at corner `v` of triangle `t` when it gets so many
+    /// triangles more.
+    fn cost_at(&self, v: u32, t: u32, more: isize) -> f64 {
+        Corner::of(self.mesh, self.rules, v, t)
+            .map_or(0.0, |c| c.cost(c.degree.saturating_add_signed(more)) - c.cost(c.degree))
+    }
+
+    /// What the angles of triangle `t` are outside.
+    fn energy(&self, t: u32) -> f64 {
+        let place = self.mesh.place(t);
+        self.rules.limits(place).energy(&place.view(self.mesh.measure(t)))
     }
 
     fn removals(&mut self, v: u32) {
@@ -119,13 +128,10 @@ impl Finder<'_> {
             return;
         }
         let mut chosen = Vec::new();
-        self.refills.choose(self.mesh, self.limits, &ring, closed, 2, &mut chosen);
-        let before: f64 = ring
-            .iter()
-            .chain([&v])
-            .map(|&w| degree_cost(self.limits, self.mesh.sector[w as usize], self.mesh.degree(w)))
-            .sum();
-        let old: f64 = tris.iter().map(|&t| self.limits.energy(&self.mesh.measure(t))).sum();
+        self.refills.choose(self.mesh, self.rules, (&tris, &ring), closed, 2, &mut chosen);
+        let now = |v, t| Corner::of(self.mesh, self.rules, v, t).map_or(0.0, |c| c.cost(c.degree));
+        let before: f64 = ring.iter().zip(&tris).map(|(&w, &t)| now(w, t)).sum::<f64>() + now(v, tris[0]);
+        let old: f64 = tris.iter().map(|&t| self.energy(t)).sum();
         for (cost, refill) in chosen {
             let cost = cost - before - SHAPE_WEIGHT * old;
             self.out.push(Change { cost, action: Action::Remove { vertex: v, refill } });
@@ -141,13 +147,12 @@ impl Finder<'_> {
         }
         let mut cost = 0.0;
         for (i, v) in d.into_iter().enumerate() {
-            let n = self.mesh.degree(v);
-            cost += self.cost_at(v, if i == 0 || i == 3 { n + 1 } else { n - 1 });
+            cost += self.cost_at(v, if i == 3 { u } else { t }, if i == 0 || i == 3 { 1 } else { -1 });
         }
         let [a, b, c, f] = d.map(|v| self.mesh.pos[v as usize]);
-        let shape = self.limits.energy(&Measure::of(a, b, f)) + self.limits.energy(&Measure::of(f, c, a));
-        let old = self.limits.energy(&self.mesh.measure(t)) + self.limits.energy(&self.mesh.measure(u));
-        cost += SHAPE_WEIGHT * (shape - old);
+        let limits = self.rules.limits(self.mesh.place(t));
+        let shape = limits.energy(&Measure::of(a, b, f)) + limits.energy(&Measure::of(f, c, a));
+        cost += SHAPE_WEIGHT * (shape - self.energy(t) - self.energy(u));
         self.out.push(Change { cost, action: Action::Flip { triangle: t, corner: k } });
     }
 
@@ -175,16 +180,18 @@ impl Finder<'_> {
             return;
         };
         let at = outline.iter().map(|&v| self.mesh.pos[v as usize]).sum::<DVec2>() / outline.len() as f64;
-        let mut cost = degree_cost(self.limits, std::f64::consts::TAU, outline.len());
+        let limits = self.rules.limits(self.mesh.place(disc[0]));
+        let mut cost = Corner::inside(limits).cost(outline.len());
         let mut shape = 0.0;
         for (i, &v) in outline.iter().enumerate() {
-            let inside = disc.iter().filter(|&&t| self.mesh.tri[t as usize].v.contains(&v)).count();
-            cost += self.cost_at(v, self.mesh.degree(v) + 2 - inside);
+            let has = |t: &&u32| self.mesh.tri[**t as usize].v.contains(&v);
+            let inside = disc.iter().filter(has).count();
+            let some = disc.iter().find(has).copied().unwrap_or(disc[0]);
+            cost += self.cost_at(v, some, 2 - inside as isize);
             let w = outline[(i + 1) % outline.len()];
-            shape +=
-                self.limits.energy(&Measure::of(at, self.mesh.pos[v as usize], self.mesh.pos[w as usize]));
+            shape += limits.energy(&Measure::of(at, self.mesh.pos[v as usize], self.mesh.pos[w as usize]));
         }
-        let old: f64 = disc.iter().map(|&t| self.limits.energy(&self.mesh.measure(t))).sum();
+        let old: f64 = disc.iter().map(|&t| self.energy(t)).sum();
         cost += SHAPE_WEIGHT * (shape - old);
         if cost < 100.0 {
             let mut d = [NONE; 6];
@@ -195,13 +202,17 @@ impl Finder<'_> {
 }
 
 /// The outline of a disc of triangles, counter-clockwise; none where it passes
-/// a vertex twice or is no disc.
+/// a vertex twice, a segment goes through it, or it is no disc.
 pub(crate) fn outline(mesh: &Mesh, disc: &[u32]) -> Option<Vec<u32>> {
     let mut sides = Vec::with_capacity(disc.len() + 2);
     for &t in disc {
         let tri = mesh.tri[t as usize];
         for k in 0..3 {
-            if !disc.contains(&tri.n[k]) {
+            if disc.contains(&tri.n[k]) {
+                if tri.is_bound(k) {
+                    return None;
+                }
+            } else {
                 sides.push((tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]));
             }
         }

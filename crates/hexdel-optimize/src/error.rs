@@ -68,8 +68,25 @@ pub enum OptimizeError {
         /// Its coordinates.
         at: DVec2,
     },
+    /// An edge that must stay is not there.
+    #[error("no edge joins vertices {} and {}", edge[0].index(), edge[1].index())]
+    NoSuchEdge {
+        /// Its ends.
+        edge: [VertexId; 2],
+    },
+    /// A segment or vertex that constraints name is not there.
+    #[error("the constraints name {what} {index} of {count}")]
+    NoSuchItem {
+        /// "vertex" or "segment".
+        what: &'static str,
+        /// Its index.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// A vertex on the rim is free, one inside slides, or one slides along a
-    /// direction that is no unit vector along both of its rim sides.
+    /// direction that is no unit vector along both of its rim sides; or a
+    /// vertex on a segment is not between two edges of it that stay.
     #[error("the kind of vertex {} at {at} does not fit its place in the mesh", vertex.index())]
     Misplaced {
         /// The vertex.

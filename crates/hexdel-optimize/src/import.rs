@@ -3,8 +3,9 @@
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use rayon::prelude::*;
 
+use crate::constraints::{Constraints, Line};
 use crate::error::OptimizeError;
-use crate::mesh::{Mesh, Motion, NONE, Soup, Vertices};
+use crate::mesh::{Around, Mesh, Motion, NONE, Soup, Vertices, opening};
 use crate::options::VertexKind;
 
 /// A sliding vertex's direction may differ from its rim sides' by the rounding
@@ -12,8 +13,16 @@ use crate::options::VertexKind;
 /// that of [`kinds_of`](crate::kinds_of), it is another direction.
 const STRAIGHT: f64 = 1e-3;
 
+/// Sine of the turn at a vertex on a segment: where neighbours are as near as
+/// coordinates resolve, their rounding turns the edges, yet never by so much.
+const NEARLY_STRAIGHT: f64 = 0.1;
+
 /// Checks the mesh and takes it apart.
-pub(crate) fn import(mesh: TriMesh, kinds: &[VertexKind]) -> Result<Soup, OptimizeError> {
+pub(crate) fn import(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    constraints: Option<&Constraints<'_>>,
+) -> Result<Soup, OptimizeError> {
     let n = mesh.vertices.len();
     if kinds.len() != n {
         return Err(OptimizeError::KindCount { vertices: n, kinds: kinds.len() });
@@ -30,15 +39,82 @@ pub(crate) fn import(mesh: TriMesh, kinds: &[VertexKind]) -> Result<Soup, Optimi
         sector: vec![std::f64::consts::TAU; n],
         origin: (0..n as u32).collect(),
         failed: vec![0; n],
+        bound: vec![0; tris.len()],
         tris,
         pos: mesh.vertices,
+        source: Vec::new(),
+        lines: Vec::new().into(),
     };
+    if let Some(constraints) = constraints {
+        constrain(&mut soup, constraints)?;
+    }
     soup.sector = sectors(&soup)?;
     Ok(soup)
 }
 
-/// The caller's mesh again, and the kinds of its vertices.
-pub(crate) fn export(soup: Soup, vertices: usize) -> (TriMesh, Vec<VertexKind>, Vec<Option<VertexId>>) {
+/// Marks edges, segments and points.
+fn constrain(soup: &mut Soup, constraints: &Constraints<'_>) -> Result<(), OptimizeError> {
+    soup.lines = constraints.segments.iter().map(|&ends| Line::new(ends)).collect();
+    soup.source = soup.motion.iter().map(|m| matches!(m, Motion::On(_))).collect();
+    let count = soup.lines.len();
+    let unknown = |m: &Motion| match *m {
+        Motion::On(line) if line as usize >= count => Some(line as usize),
+        _ => None,
+    };
+    if let Some(index) = soup.motion.iter().find_map(unknown) {
+        return Err(OptimizeError::NoSuchItem { what: "segment", index, count });
+    }
+    let count = soup.pos.len();
+    for p in &constraints.points {
+        let no_such = OptimizeError::NoSuchItem { what: "vertex", index: p.index(), count };
+        *soup.source.get_mut(p.index()).ok_or(no_such)? = true;
+    }
+    let mut edges: Vec<[usize; 2]> =
+        constraints.edges.iter().map(|[a, b]| [a.index().min(b.index()), a.index().max(b.index())]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let mut found = vec![false; edges.len()];
+    for (t, v) in soup.tris.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (v[(k + 1) % 3] as usize, v[(k + 2) % 3] as usize);
+            if let Ok(i) = edges.binary_search(&[a.min(b), a.max(b)]) {
+                found[i] = true;
+                soup.bound[t] |= 1 << k;
+            }
+        }
+    }
+    match found.iter().position(|f| !f) {
+        None => Ok(()),
+        Some(i) => Err(OptimizeError::NoSuchEdge { edge: edges[i].map(VertexId::new) }),
+    }
+}
+
+/// The edges that must stay, each once.
+fn bound_edges(soup: &Soup) -> Vec<[VertexId; 2]> {
+    let mut edges = Vec::new();
+    for (v, bound) in soup.tris.iter().zip(&soup.bound).filter(|(_, bound)| **bound != 0) {
+        for k in (0..3).filter(|k| bound >> k & 1 == 1) {
+            let (a, b) = (v[(k + 1) % 3], v[(k + 2) % 3]);
+            edges.push([a.min(b), a.max(b)].map(|v| VertexId::new(v as usize)));
+        }
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+}
+
+/// A mesh as it leaves: with its kinds, where its vertices were before, and
+/// the edges that stayed.
+pub(crate) struct Exported {
+    pub(crate) mesh: TriMesh,
+    pub(crate) kinds: Vec<VertexKind>,
+    pub(crate) vertices: Vec<Option<VertexId>>,
+    pub(crate) edges: Vec<[VertexId; 2]>,
+}
+
+/// The caller's mesh again, which had so many vertices.
+pub(crate) fn export(soup: Soup, vertices: usize) -> Exported {
+    let edges = bound_edges(&soup);
     let mut map = vec![None; vertices];
     for (i, &o) in soup.origin.iter().enumerate() {
         if o != NONE {
@@ -51,17 +127,19 @@ pub(crate) fn export(soup: Soup, vertices: usize) -> (TriMesh, Vec<VertexKind>, 
         .map(|m| match m {
             Motion::Fixed | Motion::Frozen => VertexKind::Fixed,
             Motion::Along(d) => VertexKind::Sliding(*d),
+            Motion::On(line) => VertexKind::OnSegment(*line as usize),
             Motion::Free => VertexKind::Free,
         })
         .collect();
     let triangles = soup.tris.iter().map(|t| t.map(|v| VertexId::new(v as usize))).collect();
-    (TriMesh { vertices: soup.pos, triangles }, kinds, map)
+    Exported { mesh: TriMesh { vertices: soup.pos, triangles }, kinds, vertices: map, edges }
 }
 
 fn motion(kind: &VertexKind) -> Motion {
     match *kind {
         VertexKind::Fixed => Motion::Fixed,
         VertexKind::Sliding(d) => Motion::Along(d),
+        VertexKind::OnSegment(line) => Motion::On(line as u32),
         VertexKind::Free => Motion::Free,
     }
 }
@@ -91,8 +169,9 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
         motion: soup.motion.clone(),
         sector: soup.sector.clone(),
         outside: vec![0; n],
+        around: Around { source: soup.source.clone(), near: soup.near(), lines: soup.lines.clone() },
     };
-    let mesh = Mesh::build(vertices, &soup.tris).map_err(|s| OptimizeError::SharedSide {
+    let mesh = Mesh::build(vertices, &soup.tris, &soup.bound).map_err(|s| OptimizeError::SharedSide {
         from: VertexId::new(s.from as usize),
         to: VertexId::new(s.to as usize),
     })?;
@@ -104,13 +183,18 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
                 return Err(OptimizeError::Isolated { vertex, at });
             }
             let closed = mesh.ring(v, tris, ring);
+            let stay: Vec<u32> = bound_neighbours(&mesh, v, tris);
             if tris.len() != mesh.degree(v) {
                 return Err(OptimizeError::NotOneFan { vertex, at });
             }
             let side = |w: Option<&u32>| w.map_or(DVec2::ZERO, |&w| soup.pos[w as usize] - at);
             let (first, last) = (side(ring.first()), side(ring.last()));
             match (closed, soup.motion[v as usize]) {
-                (true, Motion::Free | Motion::Fixed) => Ok(std::f64::consts::TAU),
+                (true, Motion::Free) if stay.is_empty() => Ok(std::f64::consts::TAU),
+                (true, Motion::Fixed) => Ok(std::f64::consts::TAU),
+                (_, Motion::On(line)) if goes_on(&soup.lines[line as usize], soup, v, &stay) => {
+                    Ok(if closed { std::f64::consts::TAU } else { std::f64::consts::PI })
+                }
                 (false, Motion::Fixed) => Ok(opening(first, last)),
                 (false, Motion::Along(d)) if slides(d, first, last) => Ok(std::f64::consts::PI),
                 _ => Err(OptimizeError::Misplaced { vertex, at }),
@@ -121,10 +205,25 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
     checked.into_iter().collect()
 }
 
-/// The angle from `u` counter-clockwise to `w`, in (0, 2 pi].
-fn opening(u: DVec2, w: DVec2) -> f64 {
-    let a = libm::atan2(u.perp_dot(w), u.dot(w));
-    if a <= 0.0 { a + std::f64::consts::TAU } else { a }
+/// The vertices that edges which must stay join to `v`, in the triangles `tris`.
+fn bound_neighbours(mesh: &Mesh, v: u32, tris: &[u32]) -> Vec<u32> {
+    let mut ends: Vec<u32> = Vec::new();
+    for tri in tris.iter().map(|&t| mesh.tri[t as usize]) {
+        for k in (0..3).filter(|&k| tri.v[k] != v && tri.is_bound(k)) {
+            ends.extend(tri.v.iter().enumerate().filter(|&(i, &w)| i != k && w != v).map(|(_, &w)| w));
+        }
+    }
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+/// Whether the edges from `v` to two others are along a segment.
+fn goes_on(line: &Line, soup: &Soup, v: u32, stay: &[u32]) -> bool {
+    let [a, b] = *stay else { return false };
+    let [u, w] = [a, b].map(|w| soup.pos[w as usize] - soup.pos[v as usize]);
+    let straight = |side: DVec2| line.along.perp_dot(side).abs() <= NEARLY_STRAIGHT * side.length();
+    straight(u) && straight(w) && u.dot(w) < 0.0
 }
 
 fn slides(along: DVec2, first: DVec2, last: DVec2) -> bool {

@@ -8,13 +8,14 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | `options`, `error` | what the caller says and gets |
+//! | `options`, `constraints`, `error` | what the caller says and gets |
 //! | `outline` | [`kinds_of`]: what vertices may do, from the outline |
 //! | `schedule` | [`optimize`]: rounds of work over all parts of the mesh |
 //! | `partition` | cuts the mesh into parts, the same for any number of threads |
 //! | `repair` | brings all angles inside |
 //! | `rescue` | refines where repair gives up |
 //! | `decimate` | removes vertices |
+//! | `sizing` | [`Sizing`]: how long edges may be |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill` | candidate changes of topology and their ranking |
 //! | `work` | a mesh under work: patch, flips, commit, rollback |
@@ -30,6 +31,7 @@
 
 mod angles;
 mod change;
+mod constraints;
 mod decimate;
 mod error;
 mod flip;
@@ -46,9 +48,12 @@ mod repair;
 mod rescue;
 mod schedule;
 mod shake;
+mod sizing;
 mod work;
 
+pub use constraints::{AreaLimit, Constraints};
 pub use error::OptimizeError;
 pub use options::{Effort, Optimized, Options, Stats, VertexKind};
 pub use outline::kinds_of;
-pub use schedule::optimize;
+pub use schedule::{optimize, optimize_constrained, optimize_sized};
+pub use sizing::{SIZE_TOLERANCE, Sizing, edge_fits, triangle_fits};

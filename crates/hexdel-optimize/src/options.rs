@@ -14,6 +14,9 @@ pub enum VertexKind {
     /// Along a straight side of the domain, whose unit direction this is. It
     /// may be removed.
     Sliding(DVec2),
+    /// Along a segment of the [`Constraints`](crate::Constraints), by index: to
+    /// the doubles nearest to its points. It may be removed.
+    OnSegment(usize),
     /// Anywhere. It may be removed.
     Free,
 }
@@ -79,6 +82,8 @@ pub struct Optimized {
     pub vertices: Vec<Option<VertexId>>,
     /// Kinds of the vertices of `mesh`.
     pub kinds: Vec<VertexKind>,
+    /// What has become of the edges that must stay, each once.
+    pub edges: Vec<[VertexId; 2]>,
     /// What it took.
     pub stats: Stats,
     /// False when the budget stopped the work before its end.

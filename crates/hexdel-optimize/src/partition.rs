@@ -8,7 +8,7 @@
 
 use hexdel_geom::DVec2;
 
-use crate::mesh::{Mesh, Motion, NONE, Soup, Vertices};
+use crate::mesh::{Around, Mesh, Motion, NONE, Soup, Vertices};
 
 /// Triangles in a part, at most. A part's arrays fill the second-level cache;
 /// its seam is a tenth of its vertices.
@@ -147,6 +147,8 @@ pub(crate) struct Seams {
     degree: Vec<u16>,
     /// Whether each vertex of the soup is in more than one part.
     shared: Vec<bool>,
+    /// As [`Soup::near`] says.
+    near: Vec<bool>,
     /// The vertices that are in no other part, for each part, ascending; the
     /// last list is that of the triangles nobody works on.
     own: Vec<Vec<u32>>,
@@ -174,7 +176,7 @@ impl Seams {
             place[v] = list.len() as u32;
             list.push(v as u32);
         }
-        Self { degree, shared, own, place }
+        Self { degree, shared, own, place, near: soup.near() }
     }
 }
 
@@ -206,10 +208,21 @@ pub(crate) fn extract(soup: &Soup, seams: &Seams, cuts: &Cuts, index: usize) -> 
         motion: global.iter().map(|&v| motion(v)).collect(),
         sector: global.iter().map(|&v| soup.sector[v as usize]).collect(),
         outside,
+        around: Around {
+            source: of(&global, &soup.source),
+            near: of(&global, &seams.near),
+            lines: soup.lines.clone(),
+        },
     };
+    let bound: Vec<u8> = triangles.iter().map(|&t| soup.bound[t as usize]).collect();
     let failed = global.iter().map(|&v| soup.failed[v as usize]).collect();
-    let mesh = Mesh::build(vertices, &tris).expect("a part of a manifold is one but for its seam");
+    let mesh = Mesh::build(vertices, &tris, &bound).expect("a part of a manifold is one but for its seam");
     Part { mesh, global, failed }
+}
+
+/// The values of some vertices; none where there are none of any.
+fn of(vertices: &[u32], values: &[bool]) -> Vec<bool> {
+    if values.is_empty() { Vec::new() } else { vertices.iter().map(|&v| values[v as usize]).collect() }
 }
 
 /// Puts the parts and the rest together again: the vertices that are left keep
@@ -230,11 +243,12 @@ pub(crate) fn merge(soup: &Soup, cuts: &Cuts, parts: &[Part]) -> Soup {
             }
         }
     }
-    let mut out = Soup::default();
+    let mut out = Soup { lines: soup.lines.clone(), ..Soup::default() };
     let mut renamed = vec![NONE; soup.pos.len()];
     for g in (0..soup.pos.len()).filter(|&g| !dead[g]) {
         renamed[g] = out.pos.len() as u32;
         out.push(pos[g], soup.motion[g], soup.sector[g], soup.origin[g], failed[g]);
+        out.source.extend(soup.source.get(g));
     }
     for part in parts {
         let old = part.global.len();
@@ -243,11 +257,20 @@ pub(crate) fn merge(soup: &Soup, cuts: &Cuts, parts: &[Part]) -> Soup {
             names.push(out.pos.len() as u32);
             if part.mesh.alive(i as u32) {
                 out.push(part.mesh.pos[i], part.mesh.motion[i], part.mesh.sector[i], NONE, part.failed[i]);
+                if soup.is_constrained() {
+                    out.source.push(part.mesh.is_on_source(i as u32));
+                }
             }
         }
-        out.tris.extend(part.mesh.live().map(|t| part.mesh.tri[t as usize].v.map(|v| names[v as usize])));
+        for tri in part.mesh.live().map(|t| part.mesh.tri[t as usize]) {
+            out.tris.push(tri.v.map(|v| names[v as usize]));
+            out.bound.push(tri.bound);
+        }
     }
-    out.tris.extend(cuts.rest.iter().map(|&t| soup.tris[t as usize].map(|v| renamed[v as usize])));
+    for t in cuts.rest.iter().map(|&t| t as usize) {
+        out.tris.push(soup.tris[t].map(|v| renamed[v as usize]));
+        out.bound.push(soup.bound[t]);
+    }
     out
 }
 

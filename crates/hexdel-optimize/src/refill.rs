@@ -6,8 +6,8 @@
 //! sector of angle `a` need `min <= a / n <= max`, and the nearer `a / n` is
 //! to either bound, the less room is left for the neighbours.
 
-use crate::angles::Limits;
-use crate::angles::Measure;
+use crate::angles::{Limits, Measure};
+use crate::constraints::Rules;
 use crate::mesh::Mesh;
 
 /// Holes with more corners are left alone: in bounds above 40 degrees a vertex
@@ -23,7 +23,7 @@ const SHAPE_WEIGHT: f64 = 0.1;
 const IMPOSSIBLE: f64 = 1e3;
 
 /// All triangulations of convex polygons.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Refills {
     /// Entry `n`: the triangulations of `n` corners, each `n - 2` triples.
     of: Vec<Vec<Vec<[u8; 3]>>>,
@@ -35,40 +35,39 @@ impl Refills {
         Self { of }
     }
 
-    /// The cheapest `keep` refills of the hole with the corners `ring`, in
-    /// counter-clockwise order, cheapest first; `closed` says whether
-    /// it surrounds the removed vertex or ends at the rim.
+    /// The cheapest `keep` refills of the hole that the triangles `tris` around
+    /// a vertex leave, cheapest first. Its corners `ring` are in
+    /// counter-clockwise order; `closed` says whether it surrounds the vertex
+    /// or ends at the rim or at a segment.
     pub(crate) fn choose(
         &self,
         mesh: &Mesh,
-        limits: &Limits,
-        ring: &[u32],
+        rules: &Rules<'_>,
+        (tris, ring): (&[u32], &[u32]),
         closed: bool,
         keep: usize,
         out: &mut Vec<(f64, usize)>,
     ) {
         out.clear();
         let n = ring.len();
-        let shape = shapes(mesh, limits, ring);
-        let base: [usize; MAX_CORNERS] = std::array::from_fn(|i| {
-            if i >= n {
-                return 0;
-            }
+        let shape = shapes(mesh, rules.limits(mesh.place(tris[0])), ring);
+        let corners: [Option<Corner<'_>>; MAX_CORNERS] = std::array::from_fn(|i| {
+            let corner = Corner::of(mesh, rules, *ring.get(i)?, tris[i.min(tris.len() - 1)])?;
             let end = !closed && (i == 0 || i == n - 1);
-            mesh.degree(ring[i]) - if end { 1 } else { 2 }
+            Some(Corner { degree: corner.degree - if end { 1 } else { 2 }, ..corner })
         });
         for (index, tris) in self.of[n].iter().enumerate() {
-            let mut degree = base;
+            let mut added = [0; MAX_CORNERS];
             let mut cost = 0.0;
             for t in tris {
                 for &c in t {
-                    degree[usize::from(c)] += 1;
+                    added[usize::from(c)] += 1;
                 }
                 cost += shape[usize::from(t[0])][usize::from(t[1])][usize::from(t[2])];
             }
             cost *= SHAPE_WEIGHT;
-            for i in 0..n {
-                cost += degree_cost(limits, mesh.sector[ring[i] as usize], degree[i]);
+            for (corner, added) in corners.iter().zip(added) {
+                cost += corner.as_ref().map_or(0.0, |c| c.cost(c.degree + added));
             }
             if cost < IMPOSSIBLE {
                 out.push((cost, index));
@@ -138,9 +137,43 @@ fn shapes(mesh: &Mesh, limits: &Limits, ring: &[u32]) -> [[[f64; MAX_CORNERS]; M
     shape
 }
 
+/// A corner of a hole or triangle, between the segments or sides that enclose
+/// it.
+pub(crate) struct Corner<'a> {
+    limits: &'a Limits,
+    /// Angle between the segments, radians; a full turn if there are none.
+    sector: f64,
+    /// Triangles between them.
+    pub(crate) degree: usize,
+}
+
+impl<'a> Corner<'a> {
+    /// Corner `v` of triangle `t`; none where a seam hides what encloses it.
+    #[inline]
+    pub(crate) fn of(mesh: &Mesh, rules: &'a Rules<'_>, v: u32, t: u32) -> Option<Self> {
+        let (sector, degree) = mesh.room(v, t)?;
+        Some(Self { limits: rules.limits_at(mesh, v), sector, degree })
+    }
+
+    /// That of a vertex with nothing around it.
+    pub(crate) fn inside(limits: &'a Limits) -> Self {
+        Self { limits, sector: std::f64::consts::TAU, degree: 0 }
+    }
+
+    /// What it costs to have so many triangles.
+    #[inline]
+    pub(crate) fn cost(&self, degree: usize) -> f64 {
+        degree_cost(self.limits, self.sector, degree)
+    }
+}
+
 /// How little room `degree` triangles leave in a sector: the inverse of the
 /// distance of their mean angle to the bounds, in degrees, plus one.
 pub(crate) fn degree_cost(limits: &Limits, sector: f64, degree: usize) -> f64 {
+    if degree == 1 && sector <= limits.max_rad {
+        // The angle between two segments is what it is.
+        return 0.0;
+    }
     let mean = sector / degree as f64;
     // A sector's angle carries the rounding of an arc cosine.
     let room = (mean - limits.min_rad).min(limits.max_rad - mean) + 1e-9;

@@ -121,7 +121,7 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
     let corners = work.mesh.tri[t as usize].v;
     for r in 1..=rings {
         load_rings(work, &corners, r);
-        let before = work.patch.state(work.limits).energy;
+        let before = work.patch.state(work.rules).energy;
         let last = r == rings;
         work.stats.repairs[0] += 1;
         let state = work.solve(if last { MOVE } else { Effort { near: 0.0, ..MOVE } });
@@ -146,8 +146,7 @@ fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let mut changes = Vec::new();
     load_rings(work, &corners, if wide { 2 } else { 1 });
     let around = work.patch.vertices().to_vec();
-    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }
-        .find(t, &around);
+    Finder { mesh: &work.mesh, rules: work.rules, refills: work.refills, out: &mut changes }.find(t, &around);
     let mut ranked: Vec<(f64, Action)> = Vec::new();
     for change in changes.into_iter().take(most) {
         let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else {
@@ -214,7 +213,7 @@ fn attempt(
     };
     join(&mut verts);
     load_rings(work, &verts, rings);
-    let before = work.patch.state(work.limits).energy;
+    let before = work.patch.state(work.rules).energy;
     if !apply(&mut work.mesh, work.refills, action, &mut verts) {
         work.mesh.rollback();
         return None;
@@ -249,7 +248,7 @@ fn has_no_room(mesh: &Mesh, t: u32) -> bool {
 fn refine(work: &mut Work, t: u32, below: f64) {
     let mut verts = work.mesh.tri[t as usize].v.to_vec();
     load_rings(work, &verts, 3);
-    let before = work.patch.state(work.limits).energy;
+    let before = work.patch.state(work.rules).energy;
     let mut made = Vec::new();
     for i in 0..3 {
         let (a, b) = (verts[i], verts[(i + 1) % 3]);

@@ -7,10 +7,11 @@ use hexdel_geom::monitor::check;
 use hexdel_geom::{Cancelled, Monitor, Phase, TriMesh};
 use rayon::prelude::*;
 
-use crate::angles::{Limits, Measure};
+use crate::angles::Measure;
+use crate::constraints::{Constraints, Rules};
 use crate::decimate::{PASSES, decimate};
 use crate::error::OptimizeError;
-use crate::import::{export, import};
+use crate::import::{Exported, export, import};
 use crate::mesh::Soup;
 use crate::options::{Effort, Optimized, Options, Stats, VertexKind};
 use crate::partition::{Cuts, Part, Seams, extract, merge, partition, spots};
@@ -19,6 +20,7 @@ use crate::refill::Refills;
 use crate::repair::{self, search};
 use crate::rescue::rescue;
 use crate::shake::{SHAKES, shake};
+use crate::sizing::Sizing;
 use crate::work::Work;
 
 /// Brings every angle of `mesh` inside the bounds and removes vertices while
@@ -54,9 +56,64 @@ pub fn optimize(
     options: &Options,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
+    run(mesh, kinds, None, options, None, monitor)
+}
+
+/// Like [`optimize`], with edges no longer than wanted: what removals and
+/// shakes change keeps to `sizing`. Repair does not, and edges that are longer
+/// in the mesh given may stay so.
+///
+/// # Errors
+///
+/// As [`optimize`].
+pub fn optimize_sized(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    options: &Options,
+    sizing: &dyn Sizing,
+    monitor: &dyn Monitor,
+) -> Result<Optimized, OptimizeError> {
+    run(mesh, kinds, None, options, Some(sizing), monitor)
+}
+
+/// [`optimize`] for a mesh with segments in it.
+///
+/// # Guarantees
+///
+/// As of [`optimize`], with the bounds that [`Constraints`] give by place. Every
+/// edge that must stay is an edge of the mesh returned, or several that lay in
+/// a row along one segment are one; vertices on a segment are the doubles
+/// nearest to points of it. No triangle that was changed is larger than allowed.
+///
+/// # Errors
+///
+/// As of [`optimize`], and where `constraints` name what is not there.
+///
+/// # Complexity
+///
+/// That of [`optimize`].
+pub fn optimize_constrained(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    constraints: &Constraints<'_>,
+    options: &Options,
+    monitor: &dyn Monitor,
+) -> Result<Optimized, OptimizeError> {
+    run(mesh, kinds, Some(constraints), options, None, monitor)
+}
+
+fn run(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    constraints: Option<&Constraints<'_>>,
+    options: &Options,
+    sizing: Option<&dyn Sizing>,
+    monitor: &dyn Monitor,
+) -> Result<Optimized, OptimizeError> {
     let vertices = mesh.vertices.len();
-    let soup = import(mesh, kinds)?;
-    let mut run = Run::new(soup, options, monitor);
+    let soup = import(mesh, kinds, constraints)?;
+    let rules = Rules::new(options.bounds, constraints);
+    let mut run = Run { sizing, ..Run::new(soup, options, &rules, monitor) };
     match run.all() {
         Ok(()) | Err(Stop::OutOfTime) => run.finish(vertices),
         Err(Stop::Cancelled(c)) => Err(c.into()),
@@ -95,7 +152,10 @@ struct Run<'a> {
     soup: Soup,
     options: &'a Options,
     monitor: &'a dyn Monitor,
-    limits: Limits,
+    sizing: Option<&'a dyn Sizing>,
+    /// The sizing where the present round keeps to it.
+    guard: Option<&'a dyn Sizing>,
+    rules: &'a Rules<'a>,
     refills: Refills,
     start: Instant,
     stats: Stats,
@@ -104,12 +164,14 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(soup: Soup, options: &'a Options, monitor: &'a dyn Monitor) -> Self {
+    fn new(soup: Soup, options: &'a Options, rules: &'a Rules<'a>, monitor: &'a dyn Monitor) -> Self {
         Self {
             soup,
             options,
             monitor,
-            limits: Limits::new(options.bounds),
+            sizing: None,
+            guard: None,
+            rules,
             refills: Refills::new(),
             start: Instant::now(),
             stats: Stats::default(),
@@ -126,6 +188,7 @@ impl<'a> Run<'a> {
         self.search()?;
         if self.options.effort == Effort::Best {
             self.decimate(STANDARD_PASSES, PASSES.len())?;
+            self.guard = self.sizing;
             for _ in 0..SHAKES {
                 self.round(shake)?;
             }
@@ -145,6 +208,7 @@ impl<'a> Run<'a> {
     }
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
+        self.guard = self.sizing;
         for i in from..to {
             self.round(|work| {
                 repair::moves(work, i);
@@ -156,8 +220,9 @@ impl<'a> Run<'a> {
 
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
+        self.guard = None;
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
-            let bad: Vec<u32> = self.bad().map(|t| t as u32).collect();
+            let bad = self.bad();
             if bad.is_empty() {
                 break;
             }
@@ -166,8 +231,9 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, |work| search(work, steps))?;
         }
         for rings in RESCUE_RINGS {
-            let bad: Vec<u32> = self.bad().map(|t| t as u32).collect();
-            if bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+            let bad = self.bad();
+            // Between segments that meet at less than the bound no refinement helps.
+            if self.soup.is_constrained() || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
@@ -177,11 +243,15 @@ impl<'a> Run<'a> {
     }
 
     /// Triangles outside the bounds.
-    fn bad(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.soup.tris.len()).filter(|&t| {
+    fn bad(&self) -> Vec<u32> {
+        let near = self.soup.near();
+        let is_bad = |&t: &u32| {
+            let t = t as usize;
             let [a, b, c] = self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
-            !self.limits.loose(&Measure::of(a, b, c))
-        })
+            let place = self.soup.place(t, &near);
+            !self.rules.limits(place).loose(&place.view(Measure::of(a, b, c)))
+        };
+        (0..self.soup.tris.len() as u32).filter(is_bad).collect()
     }
 
     /// Does `job` to every part of a new partition. When time is over the
@@ -227,7 +297,8 @@ impl<'a> Run<'a> {
     fn work(&self, part: Part, seed: u64, job: &impl Fn(&mut Work)) -> (Part, Stats) {
         // The generator's first output spreads neighbouring seeds.
         let seed = Random::new(seed).next();
-        let mut work = Work::new(part.mesh, &self.limits, &self.refills, part.failed, seed);
+        let mut work = Work::new(part.mesh, self.rules, &self.refills, part.failed, seed);
+        work.sizing = self.guard;
         job(&mut work);
         work.stats.steps = work.patch.steps();
         (Part { mesh: work.mesh, global: part.global, failed: work.failed }, work.stats)
@@ -246,10 +317,10 @@ impl<'a> Run<'a> {
     }
 
     fn finish(self, vertices: usize) -> Result<Optimized, OptimizeError> {
-        let bad: Vec<usize> = self.bad().collect();
-        let corners = bad.first().map(|&t| self.soup.tris[t].map(|v| self.soup.pos[v as usize]));
-        let (mesh, kinds, map) = export(self.soup, vertices);
-        let best = Optimized { mesh, vertices: map, kinds, stats: self.stats, finished: !self.stopped };
+        let bad = self.bad();
+        let corners = bad.first().map(|&t| self.soup.tris[t as usize].map(|v| self.soup.pos[v as usize]));
+        let Exported { mesh, kinds, vertices, edges } = export(self.soup, vertices);
+        let best = Optimized { mesh, vertices, kinds, edges, stats: self.stats, finished: !self.stopped };
         match corners {
             None => Ok(best),
             Some(corners) => Err(OptimizeError::Unreached { bad: bad.len(), corners, best: Box::new(best) }),

@@ -7,7 +7,8 @@
 
 use crate::change::{Action, Change, Finder, apply};
 use crate::decimate::{Pass, settle, try_remove};
-use crate::refill::{MAX_CORNERS, degree_cost};
+use crate::mesh::Motion;
+use crate::refill::{Corner, MAX_CORNERS};
 use crate::work::Work;
 
 /// Rounds of shakes.
@@ -48,14 +49,17 @@ fn exchange(work: &mut Work, v: u32) -> bool {
     work.mesh.ring(v, &mut tris, &mut ring);
     let t = tris[work.random.below(tris.len())];
     let k = work.random.below(3);
-    let Some((_, d)) = work.mesh.diamond(t, k) else {
+    let Some((u, d)) = work.mesh.diamond(t, k) else {
         return false;
     };
     let mut cost = 0.0;
     for (i, w) in d.into_iter().enumerate() {
-        let (sector, n) = (work.mesh.sector[w as usize], work.mesh.degree(w));
-        let after = if i == 0 || i == 3 { n + 1 } else { n - 1 };
-        cost += degree_cost(work.limits, sector, after) - degree_cost(work.limits, sector, n);
+        let corner = Corner::of(&work.mesh, work.rules, w, if i == 3 { u } else { t });
+        let change = |c: Corner| {
+            let after = if i == 0 || i == 3 { c.degree + 1 } else { c.degree.saturating_sub(1) };
+            c.cost(after) - c.cost(c.degree)
+        };
+        cost += corner.map_or(0.0, change);
     }
     cost < MAX_COST && work.mesh.flip(t, k) && settle(work, &d, SHAKE)
 }
@@ -63,11 +67,12 @@ fn exchange(work: &mut Work, v: u32) -> bool {
 /// Removes `v` and inserts a vertex somewhere near.
 fn transplant(work: &mut Work, v: u32) -> bool {
     let (mut tris, mut ring, mut new) = (Vec::new(), Vec::new(), Vec::new());
-    if !work.mesh.ring(v, &mut tris, &mut ring) || ring.len() > MAX_CORNERS {
+    let is_free = work.mesh.motion[v as usize] == Motion::Free;
+    if !is_free || !work.mesh.ring(v, &mut tris, &mut ring) || ring.len() > MAX_CORNERS {
         return false;
     }
     let mut chosen = Vec::new();
-    work.refills.choose(&work.mesh, work.limits, &ring, true, 4, &mut chosen);
+    work.refills.choose(&work.mesh, work.rules, (&tris, &ring), true, 4, &mut chosen);
     chosen.retain(|c| c.0 < MAX_COST);
     if chosen.is_empty() {
         return false;
@@ -95,7 +100,7 @@ fn insertion_near(work: &mut Work, v: u32) -> Option<Action> {
     work.mesh.ring(v, &mut tris, &mut ring);
     let t = tris[work.random.below(tris.len())];
     let mut changes: Vec<Change> = Vec::new();
-    Finder { mesh: &work.mesh, limits: work.limits, refills: work.refills, out: &mut changes }
+    Finder { mesh: &work.mesh, rules: work.rules, refills: work.refills, out: &mut changes }
         .find_insertions(t);
     let best = changes.len().min(3);
     (best > 0).then(|| changes[work.random.below(best)].action)

@@ -1,12 +1,13 @@
 //! One mesh under work: the state the operations share.
 
-use crate::angles::Limits;
+use crate::constraints::Rules;
 use crate::flip::{flip_patch, wants_flip};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Motion};
 use crate::options::Stats;
 use crate::patch::{Patch, State, Sweeps};
 use crate::random::Random;
 use crate::refill::Refills;
+use crate::sizing::{Sizing, triangle_fits};
 
 /// How long one patch is worked on.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +24,10 @@ pub(crate) struct Effort {
 /// A mesh, what it must become, and reused storage.
 pub(crate) struct Work<'a> {
     pub(crate) mesh: Mesh,
-    pub(crate) limits: &'a Limits,
+    pub(crate) rules: &'a Rules<'a>,
     pub(crate) refills: &'a Refills,
+    /// How long the edges of what changes may be, if that matters.
+    pub(crate) sizing: Option<&'a dyn Sizing>,
     pub(crate) patch: Patch,
     pub(crate) random: Random,
     /// As in `Soup::failed`; as long as the mesh's vertices after a commit.
@@ -40,6 +43,8 @@ pub(crate) struct Work<'a> {
 pub(crate) struct Scratch {
     pub(crate) tris: Vec<u32>,
     pub(crate) ring: Vec<u32>,
+    /// Where in a ring the segment through its vertex leaves; it enters at 0.
+    pub(crate) split: usize,
     pub(crate) made: Vec<u32>,
     pub(crate) chosen: Vec<(f64, usize)>,
     pub(crate) new: Vec<[u32; 3]>,
@@ -48,15 +53,16 @@ pub(crate) struct Scratch {
 impl<'a> Work<'a> {
     pub(crate) fn new(
         mesh: Mesh,
-        limits: &'a Limits,
+        rules: &'a Rules<'a>,
         refills: &'a Refills,
         failed: Vec<u8>,
         seed: u64,
     ) -> Self {
         Self {
             mesh,
-            limits,
+            rules,
             refills,
+            sizing: None,
             patch: Patch::default(),
             random: Random::new(seed),
             failed,
@@ -98,25 +104,71 @@ impl<'a> Work<'a> {
                 }
                 self.reload();
             }
-            self.patch.project(self.limits, effort.sweeps);
-            state = self.patch.state(self.limits);
+            self.patch.project(self.rules, effort.sweeps);
+            state = self.patch.state(self.rules);
             if state.solved {
                 break;
             }
         }
         if !state.solved && state.energy < effort.near {
-            state = self.patch.newton(self.limits, effort.steps);
+            state = self.patch.newton(self.rules, effort.steps);
         }
         self.patch.store(&mut self.mesh);
         state
     }
 
     /// Whether everything changed since the last commit keeps the bounds, and
-    /// the patch is Delaunay where the bounds do not imply it.
+    /// the patch is Delaunay where the bounds do not imply it, its edges as short
+    /// as wanted.
     pub(crate) fn changes_hold(&self) -> bool {
         let mut ok = true;
         self.mesh.changed(|t| ok = ok && self.is_good(t));
-        ok && (!self.limits.check_delaunay || self.patch_is_delaunay())
+        ok && self.changes_fit()
+            && (!self.rules.check_delaunay() || self.patch_is_delaunay())
+            && (!self.mesh.is_constrained() || self.places_hold())
+            && (!self.rules.limits_areas() || self.areas_hold())
+    }
+
+    /// Whether what has been near a segment and is no more keeps the bounds
+    /// that hold farther away. A vertex on a seam must stay near.
+    fn places_hold(&self) -> bool {
+        let mesh = &self.mesh;
+        let mut lost: Vec<u32> = Vec::new();
+        mesh.overwritten(|old| {
+            let sources = old.iter().filter(|&&v| mesh.is_on_source(v)).count();
+            // The other corners touch a source by this triangle.
+            lost.extend(old.iter().filter(|&&v| sources > 0 && !mesh.is_on_source(v)));
+        });
+        lost.sort_unstable();
+        lost.dedup();
+        lost.retain(|&v| mesh.alive(v) && !mesh.touches_source(v));
+        lost.iter().all(|&v| {
+            let mut holds = mesh.motion[v as usize] != Motion::Frozen;
+            mesh.around(v, |t, _| holds = holds && self.is_good(t));
+            holds
+        })
+    }
+
+    fn areas_hold(&self) -> bool {
+        let corners = |t: u32| self.mesh.tri[t as usize].v.map(|v| self.mesh.pos[v as usize]);
+        let mut hold = true;
+        self.mesh.changed(|t| hold = hold && self.rules.is_small(corners(t)));
+        let is_small = |&t: &u32| !self.mesh.tri[t as usize].alive() || self.rules.is_small(corners(t));
+        hold && self.patch.triangles().iter().all(is_small)
+    }
+
+    /// Whether no edge that changed is longer than wanted.
+    fn changes_fit(&self) -> bool {
+        let Some(sizing) = self.sizing else {
+            return true;
+        };
+        let fits = |t: u32| {
+            let corners = self.mesh.tri[t as usize].v;
+            triangle_fits(sizing, corners.map(|v| self.mesh.pos[v as usize]))
+        };
+        let mut ok = self.patch.triangles().iter().all(|&t| fits(t));
+        self.mesh.changed(|t| ok = ok && fits(t));
+        ok
     }
 
     fn patch_is_delaunay(&self) -> bool {
@@ -141,7 +193,7 @@ impl<'a> Work<'a> {
     }
 
     fn is_good(&self, t: u32) -> bool {
-        self.limits.loose(&self.mesh.measure(t))
+        self.rules.is_good(&self.mesh, t)
     }
 
     /// Triangles outside the bounds, ascending.

@@ -2,14 +2,16 @@
 
 use crate::areas::AreaLimits;
 use crate::carve::carve;
+use crate::compact::{Kept, compact};
 use crate::embed::embed;
 use crate::error::PslgError;
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::{bad_triangles, optimise};
 use crate::hull::with_hull;
 use crate::net::Net;
-use crate::options::{Extent, Options};
+use crate::options::{Extent, Options, SegmentMethod};
 use crate::output::{self, Parts};
+use crate::paper;
 use crate::result::PslgMesh;
 use crate::sectors::{Sector, narrow_sectors, sector_near, wedges};
 use crate::sizing::{Demand, Features, lattice_for, refine};
@@ -28,7 +30,7 @@ const REFINED_RADIUS: f64 = 1.5;
 
 /// The largest triangle of a grid over the square of its spacing: equilateral
 /// ones have 0.433, templates and the optimiser make larger ones.
-const AREA_PER_SPACING_SQ: f64 = 0.75;
+pub(crate) const AREA_PER_SPACING_SQ: f64 = 0.75;
 
 /// Meshes a planar straight-line graph.
 ///
@@ -77,6 +79,9 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     if asked.min_deg() > kept.min_deg() || asked.max_deg() < kept.max_deg() {
         return Err(PslgError::BoundsBeyondMethod { asked, kept });
     }
+    if options.method == SegmentMethod::Paper {
+        return paper::mesh(input, options, monitor);
+    }
     let mesher = Mesher::new(input, options);
     let mut demands = Vec::new();
     let mut best: Option<(usize, Net)> = None;
@@ -97,14 +102,24 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
         }
         attempt += 1;
     }
-    let (_, net) = best.expect("the first attempt is the best of one at least");
+    let (_, mut net) = best.expect("the first attempt is the best of one at least");
     check(monitor)?;
-    let parts = Parts { input, pieces: &mesher.pieces, sectors: &mesher.sectors, judge: mesher.judge() };
+    if let Some(effort) = options.compact {
+        let kept = Kept { pieces: &mesher.pieces, judge: mesher.judge(), areas: mesher.areas.as_ref() };
+        net = compact(net, &kept, effort, monitor)?;
+    }
+    let parts = Parts {
+        input,
+        pieces: &mesher.pieces,
+        sectors: &mesher.sectors,
+        judge: mesher.judge(),
+        method: options.method,
+    };
     output::finish(net, &parts, attempt, monitor)
 }
 
 /// A wish for smaller hexagons around a failed triangle.
-fn demand_at(net: &Net, t: u32) -> Demand {
+pub(crate) fn demand_at(net: &Net, t: u32) -> Demand {
     let [a, b, c] = net.corners(t);
     let lengths = [a.distance(b), b.distance(c), c.distance(a)];
     let mean = lengths.iter().sum::<f64>() / 3.0;
@@ -158,12 +173,7 @@ impl<'a> Mesher<'a> {
 
     /// The triangles larger than allowed where their centroids lie.
     fn too_large(&self, net: &Net) -> Vec<u32> {
-        let Some(areas) = &self.areas else { return Vec::new() };
-        let large = |&t: &u32| {
-            let [a, b, c] = net.corners(t);
-            0.5 * (b - a).perp_dot(c - a) > areas.at((a + b + c) / 3.0)
-        };
-        net.alive().filter(large).collect()
+        self.areas.as_ref().map_or_else(Vec::new, |areas| areas.exceeded(net))
     }
 
     /// One mesh, from the grid on.

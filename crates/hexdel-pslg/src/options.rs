@@ -1,6 +1,7 @@
 //! What to make of a graph.
 
 use hexdel_geom::AngleBounds;
+use hexdel_optimize::Effort;
 
 /// What part of the plane a mesh covers. Holes are left out of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,12 +16,27 @@ pub enum Extent {
     Inside,
 }
 
+/// How segments come into the mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SegmentMethod {
+    /// They are embedded, and an optimiser brings the angles around them within
+    /// bounds.
+    #[default]
+    Conform,
+    /// By the templates of the paper's section 7, which keep no bounds near
+    /// segments. For comparison.
+    Paper,
+}
+
 /// How a graph is meshed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
     /// What is covered.
     pub extent: Extent,
+    /// How segments come into the mesh.
+    pub method: SegmentMethod,
     /// Bounds of triangles that have a vertex at most one edge away from a
     /// point or segment of the input.
     pub near: AngleBounds,
@@ -30,6 +46,9 @@ pub struct Options {
     /// around the input, in square units of the input. Regions may have limits
     /// of their own, and keep both.
     pub max_area: Option<f64>,
+    /// How hard to look for vertices that the mesh can do without; none are
+    /// removed if `None`.
+    pub compact: Option<Effort>,
     /// The most triangles that may come to be.
     pub max_triangles: usize,
     /// How often the mesh is made anew with smaller triangles where bounds
@@ -39,13 +58,15 @@ pub struct Options {
 
 impl Default for Options {
     /// A hexagon, 30 to 90 degrees near segments, 43.9 to 90 elsewhere, no
-    /// limit on areas, 50 million triangles, four retries.
+    /// limit on areas, standard effort to remove vertices, 50 million triangles, four retries.
     fn default() -> Self {
         Self {
             extent: Extent::Hexagon,
+            method: SegmentMethod::Conform,
             near: AngleBounds::new(30.0, 90.0).unwrap_or(AngleBounds::SIMPLE),
             far: AngleBounds::EXTENDED,
             max_area: None,
+            compact: Some(Effort::Standard),
             max_triangles: 50_000_000,
             retries: 4,
         }
@@ -65,6 +86,13 @@ impl Options {
         self
     }
 
+    /// With segments treated in this way.
+    #[must_use]
+    pub fn method(mut self, method: SegmentMethod) -> Self {
+        self.method = method;
+        self
+    }
+
     /// With these bounds near points and segments.
     #[must_use]
     pub fn near(mut self, near: AngleBounds) -> Self {
@@ -76,6 +104,13 @@ impl Options {
     #[must_use]
     pub fn max_area(mut self, area: f64) -> Self {
         self.max_area = Some(area);
+        self
+    }
+
+    /// With so much effort to remove vertices, or all of them kept.
+    #[must_use]
+    pub fn compact(mut self, effort: Option<Effort>) -> Self {
+        self.compact = effort;
         self
     }
 

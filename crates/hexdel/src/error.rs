@@ -111,6 +111,9 @@ pub enum Error {
         /// How many it would have.
         count: u64,
     },
+    /// The size wanted is none, or cannot be had.
+    #[error(transparent)]
+    Size(crate::size::SizeError),
     /// Rounding took an edge from Delaunay and no small move brings it back:
     /// the coordinates are exhausted there.
     #[error(transparent)]

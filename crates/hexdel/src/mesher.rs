@@ -4,6 +4,8 @@ use crate::compact::{self, Again, Ended};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
+use crate::size::{Size, SizeError};
+use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
 use hexdel_classify::{Domain, Dual, Relocation, extract};
 use hexdel_geom::monitor::check;
@@ -11,7 +13,7 @@ use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
     certify, restore_delaunay, settle_rounding,
 };
-use hexdel_optimize::Effort;
+use hexdel_optimize::{Effort, SIZE_TOLERANCE};
 use hexdel_refine::{Refiner, RuleSet, Start as Coarse};
 use std::time::{Duration, Instant};
 
@@ -120,9 +122,12 @@ pub struct Mesher {
     pub(crate) method: Method,
     pub(crate) bounds: Option<AngleBounds>,
     pub(crate) domain_radius: Option<f64>,
+    /// Centre of the domain, if it is not that of the points.
+    centre: Option<DVec2>,
+    pub(crate) size: Option<Size>,
     threads: Option<usize>,
     pub(crate) without_coarsening: bool,
-    effort: Effort,
+    pub(crate) effort: Effort,
     budget: Option<Duration>,
     pub(crate) graph: GraphOptions,
 }
@@ -208,6 +213,33 @@ impl Mesher {
     pub fn domain_radius(mut self, radius: f64) -> Self {
         self.domain_radius = Some(radius);
         self
+    }
+
+    /// How long edges may be, by default as long as the points allow. Every edge
+    /// keeps to it at both ends and its middle; for points only.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Size};
+    /// let size = Size::constant(0.1)?;
+    /// let made = Mesher::new().size(size).triangulate(&[DVec2::ZERO, DVec2::X])?;
+    /// assert!(made.size_ratio.is_some_and(|ratio| ratio < 1.0 + 1e-8));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn size(mut self, size: Size) -> Self {
+        self.size = Some(size);
+        self
+    }
+
+    /// The domain is a hexagon around this centre, whatever the points'.
+    pub(crate) fn around(mut self, centre: DVec2, radius: f64) -> Self {
+        (self.centre, self.domain_radius) = (Some(centre), Some(radius));
+        self
+    }
+
+    /// What a session keeps of the options.
+    pub(crate) fn for_session(&self) -> (Effort, Option<Size>) {
+        (self.effort, self.size.clone())
     }
 
     /// How many threads work, by default as many as the machine has. The mesh
@@ -347,7 +379,8 @@ impl Mesher {
             return Err(Error::BoundsBeyondMethod { asked: bounds, kept });
         }
         let set = PointSet::new(points)?;
-        let placement = Placement::new(&set, self.domain_radius)?;
+        let placement = Placement::around(&set, self.domain_radius, self.centre)?;
+        self.check_size(&placement)?;
         let mut again = Again::new(monitor);
         let mut best: Option<Error> = None;
         for link in self.method.links(self.budget) {
@@ -358,6 +391,7 @@ impl Mesher {
                     error @ (Error::Unreached { .. }
                     | Error::NotCertified { .. }
                     | Error::Delaunay(_)
+                    | Error::Size(SizeError::Unreached { .. })
                     | Error::Optimize(_)),
                 ) => {
                     if best.as_ref().is_none_or(|best| error.outside() < best.outside()) {
@@ -391,12 +425,17 @@ impl Mesher {
 
         let relocation = start.relocation();
         let domain = placement.domain(refiner.grid(), relocation)?;
-        let occupants = refiner.occupants();
-        let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
+        let (mut dual, domain) = match &self.size {
+            Some(size) => Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?,
+            None => {
+                let occupants = refiner.occupants();
+                (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
+            }
+        };
         let mut ended = Ended { reached: true, spent: false };
         if optimize {
             let options = compact::options(bounds, self.effort, self.budget);
-            ended = compact::optimize_dual(&mut dual, &options, monitor)?;
+            ended = compact::optimize_dual(&mut dual, &options, self.size.as_ref(), monitor)?;
         }
         let extracted = Instant::now();
 
@@ -410,12 +449,14 @@ impl Mesher {
             }
             done => done?,
         };
+        let size_ratio = self.size_ratio(&dual.mesh)?;
         let certified = Instant::now();
         let of_input = set.site_of_input().iter().map(|&site| dual.vertex_of_occupant[site as usize]);
         Ok(Triangulation {
             vertex_of_input: of_input.collect(),
             mesh: dual.mesh,
             certificate,
+            size_ratio,
             method: self.method,
             start,
             budget_spent: ended.spent,
@@ -429,6 +470,25 @@ impl Mesher {
             },
             refiner,
         })
+    }
+
+    /// Refuses sizes that coordinates do not resolve in the domain.
+    fn check_size(&self, placement: &Placement) -> Result<(), SizeError> {
+        let lattice = &placement.lattice;
+        let reach = lattice.origin().abs().max_element() + lattice.spacing(0);
+        self.size.as_ref().map_or(Ok(()), |s| s.check(placement::finest_spacing(DVec2::splat(reach))))
+    }
+
+    /// The longest edge over what is wanted.
+    fn size_ratio(&self, mesh: &TriMesh) -> Result<Option<f64>, SizeError> {
+        let Some(size) = &self.size else {
+            return Ok(None);
+        };
+        let (ratio, at, length) = sized::worst(mesh, size);
+        if ratio > 1.0 + SIZE_TOLERANCE {
+            return Err(SizeError::Unreached { at, length });
+        }
+        Ok(Some(ratio))
     }
 
     /// Makes the mesh exactly Delaunay and certifies it.
@@ -454,7 +514,7 @@ impl Mesher {
         let options = CertifyOptions {
             bounds,
             inputs: Some(points),
-            min_edge: placement.shortest_edge.filter(|_| !compact),
+            min_edge: placement.shortest_edge.filter(|_| !compact && self.size.is_none()),
             ..CertifyOptions::default()
         };
         let certificate = certify(&dual.mesh, &options);

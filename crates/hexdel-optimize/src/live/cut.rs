@@ -4,7 +4,7 @@
 use hexdel_geom::TriMesh;
 
 use crate::live::store::{Store, Triangle, Vertex};
-use crate::mesh::{Mesh, Motion, NONE, Vertices};
+use crate::mesh::{Around, Mesh, Motion, NONE, Vertices};
 
 /// Part of a live mesh.
 #[derive(Clone, Debug)]
@@ -66,9 +66,11 @@ impl Cut {
             motion: vertices.iter().zip(&outside).map(motion).collect(),
             sector: vertices.iter().map(|&v| store.vertex(v).sector).collect(),
             outside,
+            around: Around::default(),
         };
         let failed = vertices.iter().map(|&v| store.vertex(v).failed).collect();
-        let mesh = Mesh::build(parts, &tris).expect("a part of a manifold is one but for its seam");
+        let mesh = Mesh::build(parts, &tris, &vec![0; tris.len()])
+            .expect("a part of a manifold is one but for its seam");
         Self { triangles, vertices, mesh, failed }
     }
 

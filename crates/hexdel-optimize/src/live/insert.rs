@@ -6,29 +6,42 @@
 //! and shapes; the first one whose neighbourhood settles is taken. Where none
 //! does, the best few are handed to the search that repairs whole meshes.
 
+use std::sync::Arc;
+
 use hexdel_geom::{DVec2, orient2d};
 
-use crate::angles::{Limits, Measure};
+use crate::angles::{Measure, Place};
 use crate::change::outline;
+use crate::constraints::Rules;
 use crate::decimate::{Pass, settle};
 use crate::live::cut::Cut;
 use crate::mesh::{Mesh, Motion, NONE};
 use crate::refill::{Refills, degree_cost};
 use crate::repair::{repair, step};
+use crate::sizing::Sizing;
 use crate::work::Work;
 
 /// What all work on parts shares.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Tools {
-    pub(crate) limits: Limits,
+    pub(crate) rules: Rules<'static>,
     pub(crate) refills: Refills,
+    /// How long edges may be.
+    pub(crate) sizing: Option<Arc<dyn Sizing>>,
 }
 
 impl Tools {
-    /// Work on a part.
-    pub(crate) fn work(&self, mesh: Mesh, mut failed: Vec<u8>) -> Work<'_> {
+    /// Work on a part that keeps edges as short as wanted.
+    pub(crate) fn work(&self, mesh: Mesh, failed: Vec<u8>) -> Work<'_> {
+        let mut work = self.free_work(mesh, failed);
+        work.sizing = self.sizing.as_deref();
+        work
+    }
+
+    /// Work on a part in which edges may be of any length.
+    pub(crate) fn free_work(&self, mesh: Mesh, mut failed: Vec<u8>) -> Work<'_> {
         failed.resize(mesh.pos.len(), 0);
-        Work::new(mesh, &self.limits, &self.refills, failed, 0)
+        Work::new(mesh, &self.rules, &self.refills, failed, 0)
     }
 }
 
@@ -86,7 +99,7 @@ pub(crate) fn insert<'a>(
             work.commit();
             return Some((work, vertex));
         }
-        tried.push((work.patch.state(work.limits).energy, seat));
+        tried.push((work.patch.state(work.rules).energy, seat));
         work.mesh.rollback();
         if let Some(Seat::Vertex(v)) = tried.last().map(|t| &t.1) {
             work.mesh.motion[*v as usize] = cut.mesh.motion[*v as usize];
@@ -215,7 +228,7 @@ fn discs(mesh: &Mesh, t: u32) -> Vec<Vec<u32>> {
 }
 
 fn vertex_cost(work: &Work, v: u32, p: DVec2) -> f64 {
-    let (mesh, limits) = (&work.mesh, work.limits);
+    let (mesh, limits) = (&work.mesh, work.rules.limits(Place::default()));
     let (mut shape, mut old) = (0.0, 0.0);
     mesh.around(v, |t, k| {
         let c = mesh.tri[t as usize].v;
@@ -227,7 +240,7 @@ fn vertex_cost(work: &Work, v: u32, p: DVec2) -> f64 {
 }
 
 fn disc_cost(work: &Work, disc: &[u32], p: DVec2) -> Option<f64> {
-    let (mesh, limits) = (&work.mesh, work.limits);
+    let (mesh, limits) = (&work.mesh, work.rules.limits(Place::default()));
     let outline = outline(mesh, disc)?;
     let mut cost = degree_cost(limits, std::f64::consts::TAU, outline.len());
     let mut shape = 0.0;

@@ -11,13 +11,13 @@ use hexdel_geom::DVec2;
 
 use crate::live::cut::Cut;
 use crate::live::insert::{Tools, repair_rounds};
-use crate::mesh::{Mesh, Motion, NONE, Vertices};
+use crate::mesh::{Around, Mesh, Motion, NONE, Vertices};
 use crate::work::Work;
 
 /// The part with the triangles that `inner` marks cut in four and all angles
 /// within the bounds again; none where that is not reached.
 pub(crate) fn refine<'a>(cut: &Cut, tools: &'a Tools, inner: &[bool]) -> Option<Work<'a>> {
-    let mut work = tools.work(cut_in_four(cut, inner)?, cut.failed.clone());
+    let mut work = tools.free_work(cut_in_four(cut, inner)?, cut.failed.clone());
     repair_rounds(&mut work).then_some(work)
 }
 
@@ -51,8 +51,9 @@ fn cut_in_four(cut: &Cut, inner: &[bool]) -> Option<Mesh> {
     for &v in old.tri.iter().flat_map(|t| &t.v) {
         outside[v as usize] -= 1;
     }
-    let vertices = Vertices { pos: built.pos, motion: built.motion, sector: built.sector, outside };
-    Mesh::build(vertices, &tris).ok()
+    let around = Around::default();
+    let vertices = Vertices { pos: built.pos, motion: built.motion, sector: built.sector, outside, around };
+    Mesh::build(vertices, &tris, &vec![0; tris.len()]).ok()
 }
 
 struct Builder {

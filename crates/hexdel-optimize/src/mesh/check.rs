@@ -9,7 +9,8 @@ impl Mesh {
     /// 2. Neighbours are live, mutual, and share the side, in opposite
     ///    directions.
     /// 3. A vertex's anchor is a live triangle at the vertex.
-    /// 4. The triangles at a vertex that is not frozen form one fan.
+    /// 4. Neighbours agree on whether the side between them must stay.
+    /// 5. The triangles at a vertex that is not frozen form one fan.
     ///
     /// # Complexity
     ///
@@ -51,6 +52,11 @@ impl Mesh {
         let tri = self.tri[t as usize];
         let other = self.tri[tri.n[k] as usize];
         let (from, to) = (tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]);
-        (0..3).any(|j| other.v[(j + 1) % 3] == to && other.v[(j + 2) % 3] == from && other.n[j] == t)
+        (0..3).any(|j| {
+            other.v[(j + 1) % 3] == to
+                && other.v[(j + 2) % 3] == from
+                && other.n[j] == t
+                && other.is_bound(j) == tri.is_bound(k)
+        })
     }
 }

@@ -1,10 +1,14 @@
 //! Between arrays and the editable mesh.
 
+use std::sync::Arc;
+
 use hexdel_geom::DVec2;
 
 use super::{Mesh, Motion, NONE, Tri};
+use crate::angles::Place;
+use crate::constraints::Line;
 
-/// A mesh as arrays: what is kept between the rounds of work. All but `tris`
+/// A mesh as arrays: what is kept between the rounds of work. Those of vertices
 /// are as long as `pos`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Soup {
@@ -18,6 +22,44 @@ pub(crate) struct Soup {
     /// failed, with nothing changed nearby since; 0 if it has not been tried.
     pub(crate) failed: Vec<u8>,
     pub(crate) tris: Vec<[u32; 3]>,
+    /// The sides of each triangle that must stay, as in `Tri`.
+    pub(crate) bound: Vec<u8>,
+    /// Whether each vertex lies on a segment, or is a point that counts as
+    /// one; empty if there are none.
+    pub(crate) source: Vec<bool>,
+    /// What [`Motion::On`] refers to.
+    pub(crate) lines: Arc<[Line]>,
+}
+
+impl Soup {
+    /// Whether there are segments or points that bounds depend on.
+    pub(crate) fn is_constrained(&self) -> bool {
+        !self.source.is_empty()
+    }
+
+    /// Whether each vertex is at most one edge away from a source; empty if
+    /// there are none.
+    pub(crate) fn near(&self) -> Vec<bool> {
+        let mut near = self.source.clone();
+        if self.is_constrained() {
+            for t in &self.tris {
+                if t.iter().any(|&v| self.source[v as usize]) {
+                    for &v in t {
+                        near[v as usize] = true;
+                    }
+                }
+            }
+        }
+        near
+    }
+
+    /// Where triangle `t` lies, given the result of [`Soup::near`].
+    pub(crate) fn place(&self, t: usize, near: &[bool]) -> Place {
+        if near.is_empty() {
+            return Place::default();
+        }
+        Place::new(self.tris[t].iter().any(|&v| near[v as usize]), self.bound[t])
+    }
 }
 
 /// A side that two triangles have in the same direction.
@@ -34,16 +76,27 @@ pub(crate) struct Vertices {
     pub(crate) sector: Vec<f64>,
     /// Triangles at each vertex that are not in the mesh.
     pub(crate) outside: Vec<u16>,
+    pub(crate) around: Around,
+}
+
+/// What vertices know of segments; all empty if there are none.
+#[derive(Default)]
+pub(crate) struct Around {
+    /// As in `Soup`.
+    pub(crate) source: Vec<bool>,
+    /// As [`Soup::near`] says.
+    pub(crate) near: Vec<bool>,
+    pub(crate) lines: Arc<[Line]>,
 }
 
 impl Mesh {
-    /// Builds the mesh of `tris`.
+    /// Builds the mesh of `tris` with the sides `bound`.
     ///
     /// # Complexity
     ///
     /// Linear for vertices of bounded degree.
-    pub(crate) fn build(vertices: Vertices, tris: &[[u32; 3]]) -> Result<Self, BadSide> {
-        let Vertices { pos, motion, sector, outside: mut degree } = vertices;
+    pub(crate) fn build(vertices: Vertices, tris: &[[u32; 3]], bound: &[u8]) -> Result<Self, BadSide> {
+        let Vertices { pos, motion, sector, outside: mut degree, around } = vertices;
         let neighbours = neighbours(pos.len(), tris)?;
         let mut anchor = vec![NONE; pos.len()];
         for (t, v) in tris.iter().enumerate() {
@@ -52,8 +105,12 @@ impl Mesh {
                 degree[v as usize] += 1;
             }
         }
-        let tri = tris.iter().zip(neighbours).map(|(&v, n)| Tri { v, n }).collect();
-        Ok(Self { pos, motion, sector, tri, anchor, degree, journal: Vec::new() })
+        let tri =
+            tris.iter().zip(neighbours).zip(bound).map(|((&v, n), &bound)| Tri { v, n, bound }).collect();
+        let Around { source, near, lines } = around;
+        let constrained = !source.is_empty();
+        let journal = Vec::new();
+        Ok(Self { pos, motion, sector, tri, anchor, degree, constrained, source, near, lines, journal })
     }
 }
 

@@ -8,12 +8,17 @@
 mod check;
 mod convert;
 mod ops;
+mod place;
 
-pub(crate) use convert::{Soup, Vertices};
+pub(crate) use convert::{Around, Soup, Vertices};
+pub(crate) use place::opening;
+
+use std::sync::Arc;
 
 use hexdel_geom::DVec2;
 
 use crate::angles::Measure;
+use crate::constraints::Line;
 
 /// No triangle, no vertex.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -24,13 +29,22 @@ pub(crate) const NONE: u32 = u32::MAX;
 pub(crate) struct Tri {
     pub(crate) v: [u32; 3],
     pub(crate) n: [u32; 3],
+    /// The sides that must stay: bit `k` that opposite corner `k`. The same on
+    /// both sides.
+    pub(crate) bound: u8,
 }
 
 impl Tri {
-    pub(crate) const DEAD: Self = Self { v: [NONE; 3], n: [NONE; 3] };
+    pub(crate) const DEAD: Self = Self { v: [NONE; 3], n: [NONE; 3], bound: 0 };
 
     pub(crate) fn alive(&self) -> bool {
         self.v[0] != NONE
+    }
+
+    /// Whether the side opposite corner `k` must stay.
+    #[inline]
+    pub(crate) fn is_bound(&self, k: usize) -> bool {
+        self.bound >> k & 1 == 1
     }
 
     /// Which corner `v` is.
@@ -56,6 +70,8 @@ pub(crate) enum Motion {
     Frozen,
     /// Along a unit vector.
     Along(DVec2),
+    /// Along a segment, to the rounded points of it.
+    On(u32),
     /// Anywhere.
     Free,
 }
@@ -89,6 +105,14 @@ pub(crate) struct Mesh {
     /// Number of live triangles at each vertex, plus those of the vertex that
     /// lie outside of this mesh when it is a part of a larger one.
     degree: Vec<u16>,
+    /// Whether there are segments, and `source` and `near` are in use.
+    constrained: bool,
+    /// Whether each vertex lies on a segment, or is a point that counts as one.
+    source: Vec<bool>,
+    /// Of frozen vertices: whether they are near a source in the whole mesh.
+    near: Vec<bool>,
+    /// What [`Motion::On`] refers to.
+    lines: Arc<[Line]>,
     /// Changes since the last commit, oldest first.
     journal: Vec<Change>,
 }
@@ -249,6 +273,10 @@ impl Mesh {
         self.sector.push(sector);
         self.anchor.push(NONE);
         self.degree.push(0);
+        if self.constrained {
+            self.source.push(matches!(motion, Motion::On(_)));
+            self.near.push(false);
+        }
         self.journal.push(Change::NewVertex);
         (self.pos.len() - 1) as u32
     }
@@ -278,6 +306,10 @@ impl Mesh {
                     self.sector.pop();
                     self.anchor.pop();
                     self.degree.pop();
+                    if self.constrained {
+                        self.source.pop();
+                        self.near.pop();
+                    }
                 }
             }
         }
@@ -291,6 +323,35 @@ impl Mesh {
             {
                 f(t);
             }
+        }
+    }
+
+    /// Calls `f` with the corners of every triangle that was written since the
+    /// last commit, as it was before.
+    pub(crate) fn overwritten(&self, mut f: impl FnMut([u32; 3])) {
+        for c in &self.journal {
+            if let Change::Triangle(_, old) = *c
+                && old.alive()
+            {
+                f(old.v);
+            }
+        }
+    }
+
+    pub(crate) fn is_constrained(&self) -> bool {
+        self.constrained
+    }
+
+    /// Whether vertex `v` lies on a segment or counts as one.
+    pub(crate) fn is_on_source(&self, v: u32) -> bool {
+        self.source[v as usize]
+    }
+
+    /// The segment of a vertex that slides along one.
+    pub(crate) fn line(&self, v: u32) -> Option<&Line> {
+        match self.motion[v as usize] {
+            Motion::On(line) => Some(&self.lines[line as usize]),
+            _ => None,
         }
     }
 

@@ -2,6 +2,7 @@
 //! triangles by others with the same outline.
 
 use super::{Mesh, Motion, NONE, Tri};
+use crate::constraints::Line;
 
 /// One directed side of the outline and what lies beyond it.
 #[derive(Clone, Copy)]
@@ -9,6 +10,7 @@ struct Side {
     from: u32,
     to: u32,
     beyond: u32,
+    bound: bool,
 }
 
 impl Mesh {
@@ -19,6 +21,19 @@ impl Mesh {
     /// The caller has checked that no edge of `new` inside the outline exists
     /// outside of it ([`Mesh::adjacent`]).
     pub(crate) fn replace(&mut self, old: &[u32], new: &[[u32; 3]], made: &mut Vec<u32>) {
+        self.replace_bound(old, new, &[], made);
+    }
+
+    /// The same where some of the edges between the new triangles, or sides of
+    /// the new rim, must stay from now on. Sides of the outline stay what they
+    /// are.
+    pub(crate) fn replace_bound(
+        &mut self,
+        old: &[u32],
+        new: &[[u32; 3]],
+        bound: &[[u32; 2]],
+        made: &mut Vec<u32>,
+    ) {
         let outline = self.outline(old);
         let mut dropped: Vec<u32> = Vec::new();
         for &t in old {
@@ -33,14 +48,21 @@ impl Mesh {
             made.push(t);
         }
         for (i, &v) in new.iter().enumerate() {
-            let mut tri = Tri { v, n: [NONE; 3] };
+            let mut tri = Tri { v, n: [NONE; 3], bound: 0 };
             for k in 0..3 {
                 let (from, to) = (v[(k + 1) % 3], v[(k + 2) % 3]);
                 let inner = new.iter().position(|w| has_side(*w, to, from));
-                tri.n[k] = match inner {
-                    Some(j) => made[base + j],
-                    None => self.attach(&outline, from, to, made[base + i]),
-                };
+                let joins = |b: &[u32; 2]| *b == [from, to] || *b == [to, from];
+                let mut stays = bound.iter().any(joins);
+                if let Some(j) = inner {
+                    tri.n[k] = made[base + j];
+                } else if let Some(side) = outline.iter().find(|s| s.from == from && s.to == to) {
+                    tri.n[k] = self.attach(*side, made[base + i]);
+                    stays |= side.bound;
+                }
+                // A side that joins two sides of the rim (a rim vertex removed)
+                // has no counterpart in the outline: it is rim itself.
+                tri.bound |= u8::from(stays) << k;
             }
             self.set_tri(made[base + i], tri);
             for w in v {
@@ -60,35 +82,44 @@ impl Mesh {
             let tri = self.tri[t as usize];
             for k in 0..3 {
                 if tri.n[k] == NONE || !old.contains(&tri.n[k]) {
-                    sides.push(Side { from: tri.v[(k + 1) % 3], to: tri.v[(k + 2) % 3], beyond: tri.n[k] });
+                    sides.push(Side {
+                        from: tri.v[(k + 1) % 3],
+                        to: tri.v[(k + 2) % 3],
+                        beyond: tri.n[k],
+                        bound: tri.is_bound(k),
+                    });
                 }
             }
         }
         sides
     }
 
-    /// Tells what lies beyond the side `from to` that its neighbour is `t`.
-    fn attach(&mut self, outline: &[Side], from: u32, to: u32, t: u32) -> u32 {
-        // A side that joins two sides of the rim (a rim vertex removed) has
-        // no counterpart in the outline: it is rim itself.
-        let Some(side) = outline.iter().find(|s| s.from == from && s.to == to) else {
-            return NONE;
-        };
-        if side.beyond != NONE {
-            let mut tri = self.tri[side.beyond as usize];
+    /// Tells what lies beyond a side of the outline that its neighbour is `t`
+    /// now.
+    fn attach(&mut self, side: Side, t: u32) -> u32 {
+        let Side { from, to, beyond, .. } = side;
+        if beyond != NONE {
+            let mut tri = self.tri[beyond as usize];
             let k = (0..3).find(|&k| tri.v[(k + 1) % 3] == to && tri.v[(k + 2) % 3] == from);
             debug_assert!(k.is_some(), "neighbours share a side");
             if let Some(k) = k {
                 tri.n[k] = t;
-                self.set_tri(side.beyond, tri);
+                self.set_tri(beyond, tri);
             }
         }
-        side.beyond
+        beyond
     }
 
     /// The two triangles and four vertices of the side opposite corner `k` of
-    /// `t`: `[apex, from, to, far apex]`, unless the side is rim.
+    /// `t`: `[apex, from, to, far apex]`, unless the side is rim or must stay.
+    #[inline]
     pub(crate) fn diamond(&self, t: u32, k: usize) -> Option<(u32, [u32; 4])> {
+        if self.tri[t as usize].is_bound(k) { None } else { self.pair(t, k) }
+    }
+
+    /// The same where the side may be one that must stay.
+    #[inline]
+    fn pair(&self, t: u32, k: usize) -> Option<(u32, [u32; 4])> {
         let tri = self.tri[t as usize];
         let u = tri.n[k];
         if u == NONE {
@@ -120,9 +151,17 @@ impl Mesh {
         let j = b.corner(far);
         // Beyond from-far, far-to, to-apex, apex-from.
         let beyond = [b.n[b.corner(to)], b.n[b.corner(from)], a.n[(k + 1) % 3], a.n[(k + 2) % 3]];
+        let bound = [
+            b.is_bound(b.corner(to)),
+            b.is_bound(b.corner(from)),
+            a.is_bound((k + 1) % 3),
+            a.is_bound((k + 2) % 3),
+        ]
+        .map(u8::from);
         debug_assert_eq!(b.n[j], t);
-        self.set_tri(t, Tri { v: [apex, from, far], n: [beyond[0], u, beyond[3]] });
-        self.set_tri(u, Tri { v: [far, to, apex], n: [beyond[2], t, beyond[1]] });
+        let (first, second) = (bound[0] | bound[3] << 2, bound[2] | bound[1] << 2);
+        self.set_tri(t, Tri { v: [apex, from, far], n: [beyond[0], u, beyond[3]], bound: first });
+        self.set_tri(u, Tri { v: [far, to, apex], n: [beyond[2], t, beyond[1]], bound: second });
         self.relink(beyond[0], u, t);
         self.relink(beyond[2], t, u);
         self.set_anchor(from, t);
@@ -146,24 +185,55 @@ impl Mesh {
 
     /// Puts a new vertex at the middle of the side opposite corner `k` of `t`.
     ///
-    /// A vertex on the rim slides along its side, any other is free. None
-    /// where the side is the seam to another part.
+    /// A vertex on a segment or on the rim slides along it, any other is free.
+    /// None where the side is the seam to another part, or an end of it.
     pub(crate) fn split_edge(&mut self, t: u32, k: usize, made: &mut Vec<u32>) -> Option<u32> {
-        let v = self.tri[t as usize].v;
-        let (apex, from, to) = (v[k], v[(k + 1) % 3], v[(k + 2) % 3]);
+        let tri = self.tri[t as usize];
+        let (apex, from, to) = (tri.v[k], tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]);
         let (p, q) = (self.pos[from as usize], self.pos[to as usize]);
-        let mid = 0.5 * (p + q);
-        if let Some((u, [_, _, _, far])) = self.diamond(t, k) {
-            let m = self.add_vertex(mid, Motion::Free, std::f64::consts::TAU);
-            self.replace(&[t, u], &[[apex, from, m], [apex, m, to], [far, m, from], [far, to, m]], made);
-            Some(m)
-        } else if [from, to].iter().all(|v| self.motion[*v as usize] == Motion::Frozen) {
-            None
-        } else {
-            let m = self.add_vertex(mid, Motion::Along((q - p).normalize()), std::f64::consts::PI);
-            self.replace(&[t], &[[apex, from, m], [apex, m, to]], made);
-            Some(m)
+        let mut mid = 0.5 * (p + q);
+        let mut motion = Motion::Free;
+        let mut bound: &[[u32; 2]] = &[];
+        let beyond = self.pair(t, k);
+        if beyond.is_none() && [from, to].iter().all(|v| self.motion[*v as usize] == Motion::Frozen) {
+            return None;
         }
+        if tri.is_bound(k) {
+            let line = self.line_between(from, to)?;
+            mid = self.lines[line as usize].nearest(mid);
+            motion = Motion::On(line);
+        } else if beyond.is_none() {
+            motion = Motion::Along((q - p).normalize());
+        }
+        let sector = if beyond.is_none() { std::f64::consts::PI } else { std::f64::consts::TAU };
+        let m = self.add_vertex(mid, motion, sector);
+        let halves = [[from, m], [m, to]];
+        if tri.is_bound(k) {
+            bound = &halves;
+        }
+        match beyond {
+            Some((u, [_, _, _, far])) => {
+                let new = [[apex, from, m], [apex, m, to], [far, m, from], [far, to, m]];
+                self.replace_bound(&[t, u], &new, bound, made);
+            }
+            None => self.replace_bound(&[t], &[[apex, from, m], [apex, m, to]], bound, made),
+        }
+        Some(m)
+    }
+
+    /// The segment that an edge is part of: that of an end that slides, or the
+    /// one whose ends are its ends.
+    fn line_between(&self, a: u32, b: u32) -> Option<u32> {
+        let of = |v: u32| match self.motion[v as usize] {
+            Motion::On(line) => Some(line),
+            _ => None,
+        };
+        let ends = [a, b].map(|v| self.pos[v as usize]);
+        let whole = || {
+            let same = |l: &Line| l.ends == ends || l.ends == [ends[1], ends[0]];
+            self.lines.iter().position(same).map(|i| i as u32)
+        };
+        of(a).or_else(|| of(b)).or_else(whole)
     }
 }
 

@@ -12,7 +12,8 @@ mod skyline;
 
 use hexdel_geom::DVec2;
 
-use crate::angles::{Limits, Measure};
+use crate::angles::{Measure, Place};
+use crate::constraints::Rules;
 use crate::mesh::{Mesh, Motion, NONE};
 
 pub(crate) use newton::Newton;
@@ -54,6 +55,10 @@ pub(crate) struct Patch {
     ids: Vec<u32>,
     /// Local corners of the triangles.
     tris: Vec<[u32; 3]>,
+    /// Where each triangle lies; as long as `tris`.
+    places: Vec<Place>,
+    /// Whether each vertex is near a segment; empty if there are none.
+    near: Vec<bool>,
     /// Positions, as long as `verts`.
     pos: Vec<DVec2>,
     /// Direction of a sliding vertex, zero for the others; as long as `verts`.
@@ -82,6 +87,10 @@ impl Patch {
                     self.slides = true;
                     self.enter(mesh, v, d);
                 }
+                Motion::On(_) => {
+                    self.slides = true;
+                    self.enter(mesh, v, mesh.line(v).map_or(DVec2::ZERO, |l| l.along));
+                }
             }
         }
         self.movable = self.verts.len();
@@ -101,6 +110,10 @@ impl Patch {
             }
             self.tris.push(corners.map(|v| self.slot[v as usize]));
         }
+        self.places.resize(self.tris.len(), Place::default());
+        if mesh.is_constrained() {
+            self.find_places(mesh);
+        }
         self.measure_units();
         self.newton.restart();
     }
@@ -112,6 +125,7 @@ impl Patch {
         self.verts.clear();
         self.ids.clear();
         self.tris.clear();
+        self.places.clear();
         self.pos.clear();
         self.along.clear();
         self.slides = false;
@@ -125,6 +139,15 @@ impl Patch {
             self.verts.push(v);
             self.pos.push(mesh.pos[v as usize]);
             self.along.push(along);
+        }
+    }
+
+    fn find_places(&mut self, mesh: &Mesh) {
+        self.near.clear();
+        self.near.extend(self.verts.iter().map(|&v| mesh.is_near(v)));
+        for ((place, t), id) in self.places.iter_mut().zip(&self.tris).zip(&self.ids) {
+            let near = t.iter().any(|&v| self.near[v as usize]);
+            *place = Place::new(near, mesh.tri[*id as usize].bound);
         }
     }
 
@@ -149,13 +172,17 @@ impl Patch {
     }
 
     /// The patch as it stands, and which of its corners are outside.
-    pub(crate) fn state(&mut self, limits: &Limits) -> State {
-        evaluate(limits, &self.tris, &self.pos, &mut self.active)
+    pub(crate) fn state(&mut self, rules: &Rules<'_>) -> State {
+        evaluate(rules, &self.tris, &self.places, &self.pos, &mut self.active)
     }
 
-    /// Writes the positions back.
+    /// Writes the positions back; those on segments are rounded to them.
     pub(crate) fn store(&self, mesh: &mut Mesh) {
         for (&v, &p) in self.verts[..self.movable].iter().zip(&self.pos) {
+            let p = match mesh.line(v) {
+                Some(line) if mesh.pos[v as usize] != p => line.nearest(p),
+                _ => p,
+            };
             if mesh.pos[v as usize] != p {
                 mesh.set_pos(v, p);
             }
@@ -189,17 +216,28 @@ impl Patch {
 }
 
 /// Energy and active corners at `pos`.
-fn evaluate(limits: &Limits, tris: &[[u32; 3]], pos: &[DVec2], active: &mut Vec<Active>) -> State {
+fn evaluate(
+    rules: &Rules<'_>,
+    tris: &[[u32; 3]],
+    places: &[Place],
+    pos: &[DVec2],
+    active: &mut Vec<Active>,
+) -> State {
     active.clear();
     let mut energy = 0.0;
     let mut solved = true;
-    for t in tris {
+    for (t, place) in tris.iter().zip(places) {
         let [a, b, c] = t.map(|v| pos[v as usize]);
+        let limits = rules.limits(*place);
         let m = Measure::of(a, b, c);
         if limits.on_target(&m) {
             continue;
         }
+        let m = place.view(m);
         solved &= limits.strict(&m);
+        if !m.cross.is_finite() {
+            energy = f64::INFINITY;
+        }
         for k in 0..3 {
             let residual = limits.residual(&m, k);
             if residual != 0.0 {

@@ -8,7 +8,7 @@ use hexdel_geom::DVec2;
 
 use super::skyline::Skyline;
 use super::{Active, Patch, State, angle_gradient, evaluate};
-use crate::angles::Limits;
+use crate::constraints::Rules;
 
 /// No vertex moves farther in one step than this share of its shortest edge:
 /// half of it could turn a triangle over when both ends of an edge move.
@@ -49,13 +49,13 @@ impl Newton {
 
 impl Patch {
     /// At most `steps` steps; stops when solved or when no step helps.
-    pub(crate) fn newton(&mut self, limits: &Limits, steps: usize) -> State {
-        let mut state = self.state(limits);
+    pub(crate) fn newton(&mut self, rules: &Rules<'_>, steps: usize) -> State {
+        let mut state = self.state(rules);
         for _ in 0..steps {
             if state.solved || self.movable == 0 {
                 break;
             }
-            let Some(next) = self.step(limits, state) else {
+            let Some(next) = self.step(rules, state) else {
                 break;
             };
             state = next;
@@ -65,7 +65,7 @@ impl Patch {
 
     /// One step from the active corners of `state`; none where every length of
     /// step fails to lower the energy.
-    fn step(&mut self, limits: &Limits, state: State) -> Option<State> {
+    fn step(&mut self, rules: &Rules<'_>, state: State) -> Option<State> {
         self.assemble();
         for _ in 0..SHIFT_TRIES {
             let newton = &mut self.newton;
@@ -75,7 +75,7 @@ impl Patch {
             newton.matrix.solve(newton.shift, &mut newton.x);
             self.try_step();
             let newton = &mut self.newton;
-            let next = evaluate(limits, &self.tris, &newton.pos, &mut newton.active);
+            let next = evaluate(rules, &self.tris, &self.places, &newton.pos, &mut newton.active);
             if next.solved || next.energy < state.energy {
                 std::mem::swap(&mut self.pos, &mut newton.pos);
                 std::mem::swap(&mut self.active, &mut newton.active);

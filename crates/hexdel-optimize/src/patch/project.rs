@@ -11,7 +11,8 @@
 use hexdel_geom::DVec2;
 
 use super::Patch;
-use crate::angles::{Limits, Measure};
+use crate::angles::Measure;
+use crate::constraints::Rules;
 
 /// Each push goes this many times as far as to the bound. Between 1 and 2 the
 /// method converges; measured best on removals.
@@ -23,6 +24,11 @@ const WINDOW: usize = 4;
 /// A push changes the sine of an angle by no more than twice this: beyond, the
 /// first order means nothing.
 const CAP: f64 = 0.15;
+
+/// A push whose motions are turned by sliding vertices until no more than this
+/// share of their squares is left does not help: it would have to go
+/// thousands of times as far.
+const STUCK: f64 = 1e-6;
 
 /// How long to sweep.
 #[derive(Clone, Copy, Debug)]
@@ -40,10 +46,10 @@ impl Patch {
     /// # Complexity
     ///
     /// A sweep is linear in the patch's triangles.
-    pub(crate) fn project(&mut self, limits: &Limits, sweeps: Sweeps) {
+    pub(crate) fn project(&mut self, rules: &Rules<'_>, sweeps: Sweeps) {
         let mut before = f64::INFINITY;
         for sweep in 1..=sweeps.most {
-            let energy = self.sweep(limits);
+            let energy = self.sweep(rules);
             if energy == 0.0 {
                 return;
             }
@@ -59,15 +65,18 @@ impl Patch {
 
     /// One sweep; returns the sum of squared motions in units of the shortest
     /// edges.
-    fn sweep(&mut self, limits: &Limits) -> f64 {
+    fn sweep(&mut self, rules: &Rules<'_>) -> f64 {
         let mut energy = 0.0;
         for i in 0..self.tris.len() {
             let t = self.tris[i].map(|v| v as usize);
             let [a, b, c] = t.map(|v| self.pos[v]);
+            let place = self.places[i];
+            let limits = rules.limits(place);
             let m = Measure::of(a, b, c);
             if limits.on_target(&m) {
                 continue;
             }
+            let m = place.view(m);
             let (low, high) = limits.outside(&m);
             if let Some((k, g)) = low {
                 energy += self.push(t, k, g, limits.lower_turn());
@@ -93,7 +102,10 @@ impl Patch {
         let at_c = turn.x * u.perp() + turn.y * u;
         let at_b = turn.y * w - turn.x * w.perp();
         let mut d = [-(at_b + at_c), at_b, at_c];
+        let weight = v.map(|v| self.weight[v]);
+        let mut least = 0.0;
         if self.slides {
+            least = STUCK * norm(d, weight);
             for i in 0..3 {
                 let along = self.along[v[i]];
                 if along != DVec2::ZERO {
@@ -101,11 +113,8 @@ impl Patch {
                 }
             }
         }
-        let weight = v.map(|v| self.weight[v]);
-        let norm = weight[0] * d[0].length_squared()
-            + weight[1] * d[1].length_squared()
-            + weight[2] * d[2].length_squared();
-        if norm <= 0.0 {
+        let norm = norm(d, weight);
+        if norm <= least {
             return f64::INFINITY;
         }
         let cap = CAP * (u.length_squared() + w.length_squared());
@@ -116,4 +125,10 @@ impl Patch {
         }
         g * g * inverse
     }
+}
+
+/// The weighted squares of three motions.
+#[inline]
+fn norm(d: [DVec2; 3], weight: [f64; 3]) -> f64 {
+    weight[0] * d[0].length_squared() + weight[1] * d[1].length_squared() + weight[2] * d[2].length_squared()
 }

@@ -13,8 +13,7 @@
 pub(crate) mod insert;
 pub(crate) mod trace;
 
-use hexdel_geom::{DVec2, TriMesh, orient2d};
-use hexdel_grid::double::Double;
+use hexdel_geom::{DVec2, TriMesh, orient2d, point_on_segment};
 
 /// No triangle, no segment, no vertex.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -320,14 +319,10 @@ impl Net {
         }
     }
 
-    /// The point of a piece at a fraction of its length: the double nearest to
-    /// the exact one, up to the rounding of `t` itself.
+    /// The double nearest to the point of a piece at a fraction of its length.
     pub(crate) fn along(&self, piece: u32, t: f64) -> DVec2 {
         let [a, b] = self.lines[piece as usize];
-        // From the nearer end, so that the rounding of `t` matters less.
-        let (from, to, t) = if t <= 0.5 { (a, b, t) } else { (b, a, 1.0 - t) };
-        let x = |p: f64, q: f64| (Double::sum(q, -p).times(t) + p.into()).value();
-        DVec2::new(x(from.x, to.x), x(from.y, to.y))
+        point_on_segment(a, b, t)
     }
 
     /// Exchanges triangles for others with the same rim. `piece_of` says which

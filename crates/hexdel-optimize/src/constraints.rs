@@ -1,0 +1,134 @@
+//! What a mesh must keep besides its outline: edges, the segments that
+//! vertices slide along, other bounds near them, limits on areas.
+
+use hexdel_geom::{AngleBounds, DVec2, VertexId, point_on_segment};
+
+use crate::angles::{Limits, Measure, Place};
+use crate::mesh::Mesh;
+
+/// The largest area of a triangle by the place of its centroid.
+pub type AreaLimit<'a> = &'a (dyn Fn(DVec2) -> f64 + Sync);
+
+/// Segments in a mesh, and what holds around them.
+#[derive(Clone, Default)]
+pub struct Constraints<'a> {
+    /// The ends of each segment that a
+    /// [`VertexKind::OnSegment`](crate::VertexKind::OnSegment) names.
+    pub segments: Vec<[DVec2; 2]>,
+    /// Edges that must stay. A vertex on a segment may go, and leaves one edge
+    /// in the place of two; all others stay as they are. The corner of a
+    /// triangle between two of them has the angle it has: the lower bound does
+    /// not count there.
+    pub edges: Vec<[VertexId; 2]>,
+    /// Fixed vertices that count as segments do for `near`.
+    pub points: Vec<VertexId>,
+    /// Bounds of the triangles that have a vertex at most one edge away from a
+    /// vertex on a segment or from one of `points`, instead of those of the
+    /// options. They must be wider.
+    pub near: AngleBounds,
+    /// No change makes a triangle larger than this where its centroid lies;
+    /// square units of the mesh.
+    pub max_area: Option<AreaLimit<'a>>,
+}
+
+impl std::fmt::Debug for Constraints<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Constraints")
+            .field("segments", &self.segments.len())
+            .field("edges", &self.edges.len())
+            .field("points", &self.points.len())
+            .field("near", &self.near)
+            .field("max_area", &self.max_area.is_some())
+            .finish()
+    }
+}
+
+/// A segment that vertices slide along.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(crate) ends: [DVec2; 2],
+    /// Unit vector from the first end to the second.
+    pub(crate) along: DVec2,
+}
+
+impl Line {
+    pub(crate) fn new(ends: [DVec2; 2]) -> Self {
+        Self { ends, along: (ends[1] - ends[0]).normalize_or_zero() }
+    }
+
+    /// The rounded point of the segment nearest to `p`.
+    pub(crate) fn nearest(&self, p: DVec2) -> DVec2 {
+        let [a, b] = self.ends;
+        let t = (p - a).dot(self.along) / (b - a).dot(self.along);
+        point_on_segment(a, b, t.clamp(0.0, 1.0))
+    }
+}
+
+/// Bounds by place, and limits on areas.
+#[derive(Clone)]
+pub(crate) struct Rules<'a> {
+    far: Limits,
+    near: Limits,
+    max_area: Option<AreaLimit<'a>>,
+}
+
+impl std::fmt::Debug for Rules<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Rules").field("far", &self.far).field("near", &self.near).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Rules<'a> {
+    pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
+        Self {
+            far: Limits::new(bounds),
+            near: Limits::new(constraints.map_or(bounds, |c| c.near)),
+            max_area: constraints.and_then(|c| c.max_area),
+        }
+    }
+
+    /// The bounds of a triangle.
+    #[inline]
+    pub(crate) fn limits(&self, place: Place) -> &Limits {
+        if place.is_near() { &self.near } else { &self.far }
+    }
+
+    /// The bounds of most triangles at a vertex.
+    pub(crate) fn limits_at(&self, mesh: &Mesh, v: u32) -> &Limits {
+        if mesh.is_near(v) { &self.near } else { &self.far }
+    }
+
+    /// Whether a mesh within the bounds may have edges that are not Delaunay.
+    pub(crate) fn check_delaunay(&self) -> bool {
+        self.far.check_delaunay || self.near.check_delaunay
+    }
+
+    /// Whether a triangle of the mesh keeps its bounds as a certificate sees
+    /// them.
+    #[inline]
+    pub(crate) fn is_good(&self, mesh: &Mesh, t: u32) -> bool {
+        let place = mesh.place(t);
+        self.limits(place).loose(&place.view(mesh.measure(t)))
+    }
+
+    /// Whether a triangle is no larger than it may be.
+    pub(crate) fn is_small(&self, [a, b, c]: [DVec2; 3]) -> bool {
+        let Some(limit) = self.max_area else { return true };
+        0.5 * Measure::of(a, b, c).cross <= limit((a + b + c) / 3.0)
+    }
+
+    /// Whether `count` triangles may cover what the triangles `tris` do.
+    pub(crate) fn can_cover(&self, mesh: &Mesh, tris: &[u32], count: usize) -> bool {
+        let Some(limit) = self.max_area else { return true };
+        let area: f64 = tris.iter().map(|&t| 0.5 * mesh.measure(t).cross).sum();
+        let largest = tris.iter().map(|&t| {
+            let [a, b, c] = mesh.tri[t as usize].v.map(|v| mesh.pos[v as usize]);
+            limit((a + b + c) / 3.0)
+        });
+        area <= count as f64 * largest.fold(0.0, f64::max)
+    }
+
+    pub(crate) fn limits_areas(&self) -> bool {
+        self.max_area.is_some()
+    }
+}
