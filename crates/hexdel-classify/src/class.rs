@@ -153,7 +153,9 @@ impl Rows {
 /// For each direction the hexagons that have a fin there.
 #[inline]
 fn fins(subdivided: Window) -> [Window; 6] {
-    Direction::ALL.map(|d| subdivided.at(d).without(subdivided))
+    let [a, b, c, d, e, f] = subdivided.each_way();
+    let open = !subdivided;
+    [a & open, b & open, c & open, d & open, e & open, f & open]
 }
 
 /// The hexagons of class [`Class::Subdivide`]: [`Classes::irregular`], alone.
@@ -196,8 +198,10 @@ impl Classes {
         let f = |d: usize| fins[d % 6];
         let (mut middle, mut under) = ([Window::EMPTY; 6], [Window::EMPTY; 6]);
         if !moved3.is_empty() {
-            middle = std::array::from_fn(|d| moved3 & f(d + 5) & f(d) & f(d + 1));
-            under = Direction::ALL.map(|d| Window::at(middle[d.index()], d));
+            let of = |d: usize| moved3 & f(d + 5) & f(d) & f(d + 1);
+            middle = [of(0), of(1), of(2), of(3), of(4), of(5)];
+            let under_of = |d: usize| Window::at(middle[d], Direction::new(d));
+            under = [under_of(0), under_of(1), under_of(2), under_of(3), under_of(4), under_of(5)];
         }
         Self { subdivided, fins, moved1, moved2, moved3, irregular, middle, under }
     }
@@ -221,14 +225,22 @@ impl Classes {
     /// The `moved3` hexagons with another of their run beside them: on the
     /// clockwise side, and on the counter-clockwise side.
     pub fn in_run(&self) -> (Window, Window) {
-        let (mut before, mut after) = (Window::EMPTY, Window::EMPTY);
-        for d in 0..6 {
-            // Around a top at -d, the next counter-clockwise lies at d + 2.
-            let next = self.middle[d] & self.middle[(d + 1) % 6].at(Direction::new(d + 2));
-            after |= next;
-            before |= next.moved(Direction::new(d + 2));
+        if self.moved3.is_empty() {
+            return (Window::EMPTY, Window::EMPTY);
         }
-        (before, after)
+        let [a, b, c, d, e, f] = self.with_next();
+        let moved = |set: Window, by: usize| set.moved(Direction::new(by));
+        let before = moved(a, 2) | moved(b, 3) | moved(c, 4) | moved(d, 5) | moved(e, 0) | moved(f, 1);
+        (before, a | b | c | d | e | f)
+    }
+
+    /// For each direction `d`, the `moved3` with their middle fin there whose
+    /// run goes on on the counter-clockwise side.
+    #[inline]
+    pub fn with_next(&self) -> [Window; 6] {
+        // Around a top at -d, the next counter-clockwise lies at d + 2.
+        let of = |d: usize| self.middle[d] & self.middle[(d + 1) % 6].at(Direction::new(d + 2));
+        [of(0), of(1), of(2), of(3), of(4), of(5)]
     }
 
     /// The fins of one hexagon, bit `i` for direction `i`.

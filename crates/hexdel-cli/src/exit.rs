@@ -28,6 +28,9 @@ pub(crate) enum Failure {
     /// An error that is about a file's points.
     #[error("{file}: {source}")]
     Mesh { file: String, source: hexdel::Error },
+    #[error("{file}: {source}")]
+    #[diagnostic(help("`hexdel check` tells all that is wrong with a mesh"))]
+    Voronoi { file: String, source: hexdel::geom::VoronoiError },
     #[error(transparent)]
     #[diagnostic(help("the smallest angle is at most 60 degrees, the largest at least 60"))]
     Bounds(#[from] BoundsError),

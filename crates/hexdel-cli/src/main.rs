@@ -1,12 +1,13 @@
 //! The program `hexdel`: meshes files of points, checks meshes, makes test
 //! points.
 //!
-//! One module per command ([`mesh`], [`check`], [`generate`]), and what they
+//! One module per command ([`mesh`], [`check`], [`dual`], [`generate`]), and what they
 //! share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
 mod check;
+mod dual;
 mod exit;
 mod generate;
 mod input;
@@ -37,6 +38,7 @@ struct Cli {
 enum Command {
     Mesh(mesh::Args),
     Check(check::Args),
+    Dual(dual::Args),
     Generate(generate::Args),
 }
 
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
     };
     exit::finish(outcome)

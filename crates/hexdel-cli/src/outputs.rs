@@ -5,7 +5,7 @@
 //! its place, on the same file system, and renamed when all are complete.
 
 use crate::exit::Failure;
-use hexdel_io::{MeshFormat, PointFormat, WriteError};
+use hexdel_io::{DualFormat, MeshFormat, PointFormat, WriteError};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -16,6 +16,7 @@ use tempfile::{Builder, TempDir};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Content {
     Mesh,
+    Dual,
     Points,
     Text,
 }
@@ -56,6 +57,18 @@ impl Outputs {
             if same { path.to_owned() } else { path.with_extension(extension) }
         };
         self.add(Content::Mesh, path, &pair.map(beside))
+    }
+
+    /// The Voronoi dual of a mesh, in the format of the extension.
+    pub(crate) fn add_dual(&mut self, path: &Path) -> Result<(), Failure> {
+        match DualFormat::from_path(path) {
+            Some(DualFormat::Voronoi) => {
+                let pair = ["node", "edge"].map(|extension| path.with_extension(extension));
+                self.add(Content::Dual, path, &pair)
+            }
+            Some(_) => self.add(Content::Dual, path, &[path.to_owned()]),
+            None => Err(unknown_extension(path, DualFormat::EXTENSIONS)),
+        }
     }
 
     /// Points, in the format of the extension.

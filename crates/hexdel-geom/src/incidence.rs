@@ -28,6 +28,7 @@ pub(crate) fn well_formed(corners: [VertexId; 3], vertex_count: usize) -> bool {
 }
 
 /// The triangles around each vertex, in increasing order.
+#[derive(Clone, Debug)]
 pub(crate) struct Incidence {
     /// Consecutive vertex ranges of `block_len` vertices (the last may be
     /// shorter).
@@ -36,6 +37,7 @@ pub(crate) struct Incidence {
     block_len: usize,
 }
 
+#[derive(Clone, Debug)]
 struct Block {
     /// For each vertex of the block the end of its run in `triangles`; not
     /// decreasing. The run starts where that of the vertex before ends.

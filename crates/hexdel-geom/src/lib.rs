@@ -18,6 +18,8 @@
 //! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
 //! | [`segment`] | points of a segment, rounded once |
 //! | [`rounding`] | [`settle_rounding`]: moves by units in the last place where rounding spoilt an angle |
+//! | [`voronoi`] | [`Voronoi`]: circumcentres, cells, control volumes and cotangent weights |
+//! | [`segments`] | [`check_segments`]: whether segments are unions of edges |
 //! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
 
 pub mod bounds;
@@ -33,6 +35,8 @@ pub mod pslg;
 pub mod quality;
 pub mod rounding;
 pub mod segment;
+pub mod segments;
+pub mod voronoi;
 
 mod double_double;
 mod incidence;
@@ -40,7 +44,7 @@ mod scale;
 
 pub use bounds::{AngleBounds, BoundsError};
 pub use certificate::{
-    ANGLE_TOLERANCE_DEG, Certificate, CertifyOptions, LENGTH_TOLERANCE, Violation, certify,
+    ANGLE_TOLERANCE_DEG, Certificate, CertifyOptions, LENGTH_TOLERANCE, Violation, certify, keeps_bounds,
 };
 pub use circle::{Circle, smallest_enclosing_circle};
 pub use closest_pair::{ClosestPair, closest_pair};
@@ -53,3 +57,5 @@ pub use predicates::{incircle, orient2d};
 pub use pslg::{Pslg, PslgLayoutError, Region};
 pub use rounding::settle_rounding;
 pub use segment::point_on_segment;
+pub use segments::{MissingSegment, SegmentCheck, check_segments};
+pub use voronoi::{Voronoi, VoronoiEdge, VoronoiError, VoronoiSummary};

@@ -57,7 +57,7 @@ pub fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> f64 {
 ///       a
 /// ```
 #[inline]
-pub(crate) fn locally_delaunay(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+pub fn locally_delaunay(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     // Two acute angles opposite the edge sum to less than 180 degrees.
     if surely_acute(a - b, c - b) && surely_acute(a - d, c - d) {
         return true;

@@ -6,7 +6,7 @@
 //! operations on the window.
 //!
 //! ```text
-//!   row 15  . . . . n n n n n n n n . . . .      bit 16 * row + column
+//!   row 15  . . . . n n n n n n n n . . . .
 //!           . . . . n n n n n n n n . . . .
 //!           w w w w # # # # # # # # e e e e      # the tile (rows and columns
 //!           w w w w # # # # # # # # e e e e        4 to 11), q to the right,
@@ -14,7 +14,11 @@
 //!   row 0   . . . . s s s s s s s s . . . .
 //! ```
 //!
-//! A shift by one hexagon drags bits over the window's edge into the next row.
+//! Rows are dealt to the four words of the window in turn: word `k` holds rows
+//! `k`, `k + 4`, `k + 8` and `k + 12`, sixteen bits each. To look one row up is
+//! then to take the next word, and no shift ever crosses from word to word.
+//!
+//! A shift by one hexagon drags bits over the window's edge into another row.
 //! Each shift therefore makes one more layer of the margin meaningless; after
 //! four, the tile itself is still right.
 
@@ -40,44 +44,56 @@ impl Window {
     /// first.
     #[inline]
     pub fn gather(around: &[[u64; 3]; 3]) -> Self {
-        let [south, middle, north] = around;
-        Self([
-            quarter(south.map(|tile| tile >> 32)),
-            quarter(*middle),
-            quarter(middle.map(|tile| tile >> 32)),
-            quarter(*north),
-        ])
+        // Of the tiles beside, four columns are seen: both sides' in one byte
+        // per row.
+        const FIRST_FOUR: u64 = 0x0f0f_0f0f_0f0f_0f0f;
+        let sides = around.map(|[west, _, east]| west >> 4 & FIRST_FOUR | (east & FIRST_FOUR) << 4);
+        let (sides, middle) = (stacked(sides), stacked(around.map(|row| row[1])));
+        let word = |k| {
+            const LOW: u64 = 0x000f_000f_000f_000f;
+            let beside = lanes(sides, k);
+            lanes(middle, k) << 4 | beside & LOW | (beside & LOW << 4) << 8
+        };
+        Self([word(0), word(1), word(2), word(3)])
     }
 
     /// The bits of the tile in the middle, bit `8 row + column`.
     #[inline]
     pub fn centre(self) -> u64 {
-        gather_rows(self.0[1] >> 4) | gather_rows(self.0[2] >> 4) << 32
-    }
-
-    /// The window whose tile in the middle holds `bits` and all else nothing.
-    #[inline]
-    pub fn from_centre(bits: u64) -> Self {
-        let none = [0; 3];
-        Self::gather(&[none, [0, bits, 0], none])
+        // Rows 4 to 7 are the second lane of each word, 8 to 11 the third.
+        let rows = |k: usize| (self.0[k] >> 20 & 0xff | self.0[k] >> 4 & 0xff_0000_0000) << (8 * k);
+        rows(0) | rows(1) | rows(2) | rows(3)
     }
 
     /// The hexagons whose neighbour in direction `d` is in this set.
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "directions are known where it counts: then these are a few shifts"
+    )]
+    #[inline(always)]
     #[must_use]
     pub fn at(self, d: Direction) -> Self {
         match d.index() {
-            0 => self.down::<1>(),
-            1 => self.down::<16>(),
-            2 => self.down::<15>(),
-            3 => self.up::<1>(),
-            4 => self.up::<16>(),
-            _ => self.up::<15>(),
+            0 => self.from_east(),
+            1 => self.from_above(),
+            2 => self.from_above().from_west(),
+            3 => self.from_west(),
+            4 => self.from_below(),
+            _ => self.from_below().from_east(),
         }
     }
 
-    /// The neighbours in direction `d` of the hexagons in this set.
+    /// [`at`](Self::at) for all six directions.
     #[inline]
+    #[must_use]
+    pub fn each_way(self) -> [Self; 6] {
+        let (above, below) = (self.from_above(), self.from_below());
+        [self.from_east(), above, above.from_west(), self.from_west(), below, below.from_east()]
+    }
+
+    /// The neighbours in direction `d` of the hexagons in this set.
+    #[expect(clippy::inline_always, reason = "as above")]
+    #[inline(always)]
     #[must_use]
     pub fn moved(self, d: Direction) -> Self {
         self.at(d.opposite())
@@ -87,29 +103,31 @@ impl Window {
     #[inline]
     #[must_use]
     pub fn dilated(self) -> Self {
-        let east = self | self.down::<1>();
-        let west = self | self.up::<1>();
-        east | west | east.down::<15>() | west.up::<15>()
+        let (east, west) = (self.from_east(), self.from_west());
+        self | east | west | (self | west).from_above() | (self | east).from_below()
     }
 
     /// The hexagons with another one of this set at most `n` steps away.
     #[must_use]
     pub fn others_within(self, n: usize) -> Self {
-        let [east, up, west, down] = [0, 1, 3, 4].map(Direction::new);
+        if n == 1 {
+            let [a, b, c, d, e, f] = self.each_way();
+            return a | b | c | d | e | f;
+        }
         // Row by row: `n` steps away in row `r` are columns -n to n - r. Of a
         // hexagon's own row, all but itself; of those above and below, with
         // the lines shifted on from row to row, outermost first.
         let (mut right, mut left) = ([self; Self::MARGIN as usize], [self; Self::MARGIN as usize]);
         for k in 1..=n {
-            right[k] = right[k - 1] | right[k - 1].at(east);
-            left[k] = left[k - 1] | left[k - 1].at(west);
+            right[k] = right[k - 1] | right[k - 1].from_east();
+            left[k] = left[k - 1] | left[k - 1].from_west();
         }
         let (mut above, mut below) = (Self::EMPTY, Self::EMPTY);
         for r in (1..=n).rev() {
-            above = (above | right[n - r] | left[n]).at(up);
-            below = (below | left[n - r] | right[n]).at(down);
+            above = (above | right[n - r] | left[n]).from_above();
+            below = (below | left[n - r] | right[n]).from_below();
         }
-        above | below | right[n - 1].at(east) | left[n - 1].at(west)
+        above | below | right[n - 1].from_east() | left[n - 1].from_west()
     }
 
     /// Whether no hexagon is in the set.
@@ -153,11 +171,12 @@ impl Window {
         self.0[i / 64] &= !(1 << (i % 64));
     }
 
-    /// The members, row by row, relative to the tile's first hexagon.
+    /// The members, relative to the tile's first hexagon: word by word, that is
+    /// every fourth row and then the next ones, and from west to east in a row.
     pub fn iter(self) -> impl Iterator<Item = Hex> {
         let base = Hex::new(-Self::MARGIN, -Self::MARGIN);
-        self.0.into_iter().enumerate().flat_map(move |(w, word)| {
-            ones(word).map(move |b| base + Hex::new(i64::from(b % 16), w as i64 * 4 + i64::from(b / 16)))
+        self.0.into_iter().zip(0..).flat_map(move |(word, k)| {
+            ones(word).map(move |b| base + Hex::new(i64::from(b % 16), k + i64::from(b / 16 * 4)))
         })
     }
 
@@ -168,7 +187,7 @@ impl Window {
         debug_assert!(Self::with_margin(3).contains(at), "{at:?} lies too near the edge");
         let (column, row) = ((at.q + Self::MARGIN) as usize, (at.r + Self::MARGIN) as usize);
         // The row's bits from one column before `at` on.
-        let from = |row: usize| self.0[row / 4] >> (16 * (row % 4) + column - 1);
+        let from = |row: usize| self.0[row % 4] >> (16 * (row / 4) + column - 1);
         let (below, level, above) = (from(row - 1), from(row), from(row + 1));
         let bits = level >> 2 & 1 | above & 2 | above << 2 & 4 | level << 3 & 8 | below << 3 & 0x10;
         (bits | below << 3 & 0x20) as u8
@@ -182,48 +201,19 @@ impl Window {
         let mut words = [0; 4];
         let mut r = Self::MARGIN - n;
         while r < Self::MARGIN + 8 + n {
-            words[r as usize / 4] |= row << (16 * (r % 4));
+            words[r as usize % 4] |= row << (16 * (r / 4));
             r += 1;
         }
         Self(words)
     }
 
-    /// The 8 x 8 hexagons of the tile and margin that start at `corner`, bit
-    /// `8 row + column`.
-    #[inline]
-    pub fn cut(self, corner: Hex) -> u64 {
-        let (column, first) = ((corner.q + Self::MARGIN) as usize, (corner.r + Self::MARGIN) as usize);
-        debug_assert!(column <= 8 && first <= 8);
-        let rows = |from: usize| {
-            let (word, shift) = (from / 4, 16 * (from % 4));
-            let next = self.0.get(word + 1).map_or(0, |next| next << 1 << (63 - shift));
-            gather_rows((self.0[word] >> shift | next) >> column)
-        };
-        rows(first) | rows(first + 4) << 32
-    }
-
-    /// Spreads 8 x 8 hexagons to their scaled centres one level finer: the
-    /// whole window, `(column, row)` of `bits` at `(2 column, 2 row)`.
-    #[inline]
-    pub fn scaled(bits: u64) -> Self {
-        let mut words = [0; 4];
-        for (i, word) in words.iter_mut().enumerate() {
-            let pair = bits >> (16 * i);
-            *word = spread(pair & 0xff) | spread(pair >> 8 & 0xff) << 32;
-        }
-        Self(words)
-    }
-
-    /// The inverse of [`scaled`](Self::scaled) for the tile: its hexagons with
-    /// even coordinates as 4 x 4 bits, bit `4 row + column`.
+    /// The hexagons of the tile with even coordinates as 4 x 4 bits, bit
+    /// `4 row + column`.
     #[inline]
     pub fn even_centre(self) -> u16 {
-        let mut bits = 0;
-        for row in 0..4 {
-            let word = self.0[1 + row / 2];
-            bits |= (compress(word >> (32 * (row % 2) + 4) & 0x55) as u16) << (4 * row);
-        }
-        bits
+        // Rows 4 and 8 are lanes of the first word, rows 6 and 10 of the third.
+        let row = |k: usize, lane: u32| compress(self.0[k] >> (16 * lane + 4) & 0x55) as u16;
+        row(0, 1) | row(2, 1) << 4 | row(0, 2) << 8 | row(2, 2) << 12
     }
 
     #[inline]
@@ -232,54 +222,53 @@ impl Window {
             (-4..12).contains(&at.q) && (-4..12).contains(&at.r),
             "{at:?} is outside of the window"
         );
-        ((at.r + Self::MARGIN) * 16 + at.q + Self::MARGIN) as usize
+        let (column, row) = ((at.q + Self::MARGIN) as usize, (at.r + Self::MARGIN) as usize);
+        64 * (row % 4) + 16 * (row / 4) + column
     }
 
+    /// The hexagons whose eastern neighbour is in this set.
     #[inline]
-    fn down<const N: u32>(self) -> Self {
+    fn from_east(self) -> Self {
         let [a, b, c, d] = self.0;
-        let m = 64 - N;
-        Self([a >> N | b << m, b >> N | c << m, c >> N | d << m, d >> N])
+        Self([a >> 1, b >> 1, c >> 1, d >> 1])
     }
 
+    /// The hexagons whose western neighbour is in this set.
     #[inline]
-    fn up<const N: u32>(self) -> Self {
+    fn from_west(self) -> Self {
         let [a, b, c, d] = self.0;
-        let m = 64 - N;
-        Self([a << N, b << N | a >> m, c << N | b >> m, d << N | c >> m])
+        Self([a << 1, b << 1, c << 1, d << 1])
+    }
+
+    /// Of each column, what the row above holds.
+    #[inline]
+    fn from_above(self) -> Self {
+        let [a, b, c, d] = self.0;
+        Self([b, c, d, a >> 16])
+    }
+
+    /// Of each column, what the row below holds.
+    #[inline]
+    fn from_below(self) -> Self {
+        let [a, b, c, d] = self.0;
+        Self([d << 16, a, b, c])
     }
 }
 
-/// Four window rows from the lower four rows of three tiles side by side.
+/// The sixteen rows that three tiles show, south first, as two words: byte `k`
+/// of the first holds row `k`, or `k + 4` from byte 4 on; the second holds the
+/// rows that lie four above those.
 #[inline]
-const fn quarter(tiles: [u64; 3]) -> u64 {
-    const FOUR: u64 = 0x000f_000f_000f_000f;
-    let [west, middle, east] = [spread_rows(tiles[0]), spread_rows(tiles[1]), spread_rows(tiles[2])];
-    west >> 4 & FOUR | middle << 4 | (east & FOUR) << 12
+const fn stacked([south, middle, north]: [u64; 3]) -> [u64; 2] {
+    const LOW: u64 = 0xffff_ffff;
+    [south >> 32 | middle & !LOW, middle & LOW | north << 32]
 }
 
-/// The lower four bytes of a word, each to the low byte of sixteen bits.
+/// Rows `k`, `k + 4`, `k + 8` and `k + 12`, eight bits each, sixteen apart.
 #[inline]
-const fn spread_rows(tile: u64) -> u64 {
-    let x = tile & 0xffff_ffff;
-    let x = (x | x << 16) & 0x0000_ffff_0000_ffff;
-    (x | x << 8) & 0x00ff_00ff_00ff_00ff
-}
-
-/// The inverse of [`spread_rows`].
-#[inline]
-const fn gather_rows(window: u64) -> u64 {
-    let x = window & 0x00ff_00ff_00ff_00ff;
-    let x = (x | x >> 8) & 0x0000_ffff_0000_ffff;
-    (x | x >> 16) & 0xffff_ffff
-}
-
-/// Bit `i` of eight to bit `2 i`.
-#[inline]
-fn spread(x: u64) -> u64 {
-    let x = (x | x << 4) & 0x0f0f;
-    let x = (x | x << 2) & 0x3333;
-    (x | x << 1) & 0x5555
+const fn lanes([even, odd]: [u64; 2], k: usize) -> u64 {
+    const ROWS: u64 = 0x0000_00ff_0000_00ff;
+    even >> (8 * k) & ROWS | (odd >> (8 * k) & ROWS) << 16
 }
 
 /// Bit `2 i` to bit `i`, for eight bits.
@@ -307,7 +296,8 @@ macro_rules! bitwise {
             type Output = Self;
             #[inline]
             fn $f(self, o: Self) -> Self {
-                Self(std::array::from_fn(|i| self.0[i].$f(o.0[i])))
+                let ([a, b, c, d], [e, f, g, h]) = (self.0, o.0);
+                Self([a.$f(e), b.$f(f), c.$f(g), d.$f(h)])
             }
         }
         impl $assign for Window {
@@ -325,7 +315,8 @@ impl Not for Window {
     type Output = Self;
     #[inline]
     fn not(self) -> Self {
-        Self(self.0.map(|w| !w))
+        let [a, b, c, d] = self.0;
+        Self([!a, !b, !c, !d])
     }
 }
 
@@ -394,20 +385,14 @@ mod tests {
     }
 
     #[test]
-    fn centre_and_cut_agree() {
+    fn the_centre_is_the_tile() {
         let bits = 0x0123_4567_89ab_cdef;
-        let w = Window::from_centre(bits);
+        let w = Window::gather(&[[u64::MAX; 3], [u64::MAX, bits, u64::MAX], [u64::MAX; 3]]);
         assert_eq!(w.centre(), bits);
-        assert_eq!(w.cut(Hex::ORIGIN), bits);
-        assert_eq!(w.count(), bits.count_ones());
-        for at in w.iter() {
+        let inside = w & Window::with_margin(0);
+        assert_eq!((inside.count(), inside.centre()), (bits.count_ones(), bits));
+        for at in inside.iter() {
             assert!(bits >> (8 * at.r + at.q) & 1 == 1);
-        }
-        for corner in Window::with_margin(4).iter().filter(|c| c.q <= 4 && c.r <= 4) {
-            for at in Window::with_margin(0).iter() {
-                let bit = Window::FULL.without(w).cut(corner) >> (8 * at.r + at.q) & 1 == 1;
-                assert_eq!(bit, !w.contains(corner + at));
-            }
         }
     }
 
@@ -421,14 +406,12 @@ mod tests {
     }
 
     #[test]
-    fn scaling_doubles_addresses() {
-        for bit in 0..64 {
-            let w = Window::scaled(1 << bit);
-            let at = Hex::new(2 * (bit % 8) - 4, 2 * (bit / 8) - 4);
-            assert_eq!(w.iter().collect::<Vec<_>>(), [at]);
-            let inner = (0..8).contains(&at.q) && (0..8).contains(&at.r);
-            let expected = if inner { 1 << (2 * at.r + at.q / 2) } else { 0 };
-            assert_eq!(w.even_centre(), expected);
+    fn even_places_are_the_scaled_centres() {
+        for at in Window::FULL.iter() {
+            let inside = (0..8).contains(&at.q) && (0..8).contains(&at.r);
+            let even = inside && at.q % 2 == 0 && at.r % 2 == 0;
+            let expected = if even { 1 << (2 * at.r + at.q / 2) } else { 0 };
+            assert_eq!(single(at.q, at.r).even_centre(), expected);
         }
     }
 }

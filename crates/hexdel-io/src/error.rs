@@ -278,7 +278,7 @@ pub enum WriteError {
     IndexOutOfRange {
         /// The file.
         file: String,
-        /// "triangle", "segment" or "polygon".
+        /// "triangle", "edge", "segment" or "polygon".
         item: &'static str,
         /// Its index.
         index: usize,

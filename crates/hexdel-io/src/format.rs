@@ -63,6 +63,30 @@ impl MeshFormat {
     }
 }
 
+/// A format of the Voronoi dual of a mesh. Written only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum DualFormat {
+    /// Cells as polygons, `.vtu`.
+    Vtu,
+    /// Triangle's pair of `.v.node` and `.v.edge`; either name stands for both.
+    Voronoi,
+}
+
+impl DualFormat {
+    /// The extensions that duals are written to, for messages.
+    pub const EXTENSIONS: &str = ".vtu, .v.node, .v.edge";
+
+    /// The format that the extension of `path` stands for, in upper or lower case.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        match extension(path)?.as_str() {
+            "vtu" => Some(Self::Vtu),
+            "node" | "edge" if extension(Path::new(path.file_stem()?))? == "v" => Some(Self::Voronoi),
+            _ => None,
+        }
+    }
+}
+
 fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }

@@ -13,6 +13,7 @@
 //! | `.ron` | [`TriMesh`](hexdel_geom::TriMesh) in Rusty Object Notation | [`read_mesh`] | [`write_mesh`] |
 //! | `.vtu` | VTK's unstructured grids | | [`write_mesh`] |
 //! | `.svg` | pictures | | [`write_mesh`] |
+//! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh | | [`write_dual`] |
 //!
 //! Readers trust nothing: every malformed file is a [`ReadError`] with file and
 //! line, and memory grows with what a file holds, not with what it claims. Lines
@@ -23,6 +24,7 @@
 
 mod angles;
 mod atomic;
+mod dual;
 mod error;
 mod format;
 mod legend;
@@ -39,9 +41,10 @@ mod view;
 mod vtu;
 mod write;
 
+pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
-pub use format::{MeshFormat, PointFormat};
+pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
 pub use read::{read_mesh, read_mesh_from, read_points, read_points_from};
-pub use view::MeshView;
+pub use view::{MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_to, write_points};

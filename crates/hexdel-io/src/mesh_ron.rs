@@ -7,6 +7,8 @@
 //!     vertices: [(0.0, 0.0), ..],
 //!     triangles: [(0, 1, 2), ..],
 //!     input_indices: Some([Some(0), None, ..]),  if known
+//!     vertex_markers: Some([..]),                likewise
+//!     regions: Some([..]),                       likewise
 //!     certificate: Some(..),                     if there is one
 //! )
 //! ```
@@ -31,6 +33,10 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     input_indices: Option<&'a [Option<u32>]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    vertex_markers: Option<&'a [i32]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    regions: Option<&'a [f64]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     certificate: Option<&'a dyn erased_serde::Serialize>,
 }
 
@@ -40,6 +46,8 @@ pub(crate) fn write_ron(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
         vertices: &view.mesh.vertices,
         triangles: &view.mesh.triangles,
         input_indices: view.input_indices,
+        vertex_markers: view.vertex_markers,
+        regions: view.regions,
         certificate: view.certificate,
     };
     // One item of an array per line, the same line ends on every platform.

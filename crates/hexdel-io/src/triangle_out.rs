@@ -1,7 +1,8 @@
 //! Shewchuk's Triangle formats: writing `.node`, `.ele` and `.poly`.
 //!
 //! Everything is numbered from 0. Meshes whose vertices know their input point
-//! carry its index as the one attribute, -1 for Steiner points.
+//! carry its index as the one attribute, -1 for Steiner points; triangles carry the
+//! attribute of their region, vertices a marker, if the mesh has them.
 
 use std::io::{self, Write};
 
@@ -15,14 +16,15 @@ pub(crate) fn write_node(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result
     let mut text = TextWriter::new(out);
     let attributes = u32::from(view.input_indices.is_some());
     text.integer(view.mesh.vertices.len()).text(" 2 ");
-    text.integer(attributes).text(" 0\n");
+    text.integer(attributes).text(" ");
+    text.integer(u32::from(view.vertex_markers.is_some())).text("\n");
     for (i, &p) in view.mesh.vertices.iter().enumerate() {
         position_row(&mut text, i, p);
         if view.input_indices.is_some() {
             let index = view.input_index(i).map_or(-1, i64::from);
             text.text(" ").integer(index);
         }
-        text.text("\n").breathe()?;
+        end_with_marker(&mut text, view.vertex_markers.map(|markers| &markers[i]))?;
     }
     text.finish()
 }
@@ -30,11 +32,15 @@ pub(crate) fn write_node(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result
 /// Writes the triangles of a mesh.
 pub(crate) fn write_ele(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
-    text.integer(view.mesh.triangles.len()).text(" 3 0\n");
+    text.integer(view.mesh.triangles.len()).text(" 3 ");
+    text.integer(u32::from(view.regions.is_some())).text("\n");
     for (i, corners) in view.mesh.triangles.iter().enumerate() {
         text.integer(i);
         for corner in corners {
             text.text(" ").integer(corner.index());
+        }
+        if let Some(regions) = view.regions {
+            text.text(" ").number(regions[i]);
         }
         text.text("\n").breathe()?;
     }

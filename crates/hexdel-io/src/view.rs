@@ -2,10 +2,19 @@
 
 use std::fmt;
 
-use hexdel_geom::TriMesh;
+use hexdel_geom::{TriMesh, VertexId};
 
 use crate::error::WriteError;
 use crate::picture::Picture;
+
+/// An edge of a mesh that has a marker: on an input segment or on the boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MarkedEdge {
+    /// Its ends, in the direction of the segment.
+    pub ends: [VertexId; 2],
+    /// Its marker, in Triangle's sense.
+    pub marker: i32,
+}
 
 /// A mesh to be written, with what is known about it.
 ///
@@ -33,6 +42,14 @@ pub struct MeshView<'a> {
     /// For each vertex the index of the input point it is, `None` for a Steiner
     /// point. Kept by `.node`, `.vtu` and `.ron`, drawn as a dot in pictures.
     pub input_indices: Option<&'a [Option<u32>]>,
+    /// For each vertex a marker, in Triangle's sense: 0 inside, 1 on a boundary
+    /// that has none of its own. Kept by `.node`, `.vtu` and `.ron`.
+    pub vertex_markers: Option<&'a [i32]>,
+    /// For each triangle the attribute of its region, 0 if it is in none. Kept by
+    /// `.ele`, `.vtu` and `.ron`.
+    pub regions: Option<&'a [f64]>,
+    /// The edges on input segments and on the boundary, with their markers.
+    pub marked_edges: Option<&'a [MarkedEdge]>,
     /// What was certified of the mesh. Kept by `.ron`.
     pub certificate: Option<&'a dyn erased_serde::Serialize>,
     /// How pictures look and what else is on them.
@@ -42,13 +59,39 @@ pub struct MeshView<'a> {
 impl<'a> MeshView<'a> {
     /// A mesh alone.
     pub fn new(mesh: &'a TriMesh) -> Self {
-        Self { mesh, input_indices: None, certificate: None, picture: Picture::default() }
+        Self {
+            mesh,
+            input_indices: None,
+            vertex_markers: None,
+            regions: None,
+            marked_edges: None,
+            certificate: None,
+            picture: Picture::default(),
+        }
     }
 
     /// With the index of the input point that each vertex is.
     #[must_use]
     pub fn with_input_indices(self, input_indices: &'a [Option<u32>]) -> Self {
         Self { input_indices: Some(input_indices), ..self }
+    }
+
+    /// With a marker of each vertex.
+    #[must_use]
+    pub fn with_vertex_markers(self, vertex_markers: &'a [i32]) -> Self {
+        Self { vertex_markers: Some(vertex_markers), ..self }
+    }
+
+    /// With the attribute of each triangle's region.
+    #[must_use]
+    pub fn with_regions(self, regions: &'a [f64]) -> Self {
+        Self { regions: Some(regions), ..self }
+    }
+
+    /// With the edges that have markers.
+    #[must_use]
+    pub fn with_marked_edges(self, marked_edges: &'a [MarkedEdge]) -> Self {
+        Self { marked_edges: Some(marked_edges), ..self }
     }
 
     /// With a certificate, anything that serde serialises.
@@ -71,17 +114,8 @@ impl<'a> MeshView<'a> {
     /// Checks what every format relies on, so that no writer can fail half-way
     /// for another reason than the system's.
     pub(crate) fn check(&self, file: &str) -> Result<(), WriteError> {
+        self.check_lengths(file)?;
         let vertices = &self.mesh.vertices;
-        if let Some(indices) = self.input_indices
-            && indices.len() != vertices.len()
-        {
-            return Err(WriteError::Length {
-                file: file.to_owned(),
-                array: "input indices",
-                expected: vertices.len(),
-                found: indices.len(),
-            });
-        }
         if let Some(index) = vertices.iter().position(|p| !p.is_finite()) {
             return Err(WriteError::NonFinite {
                 file: file.to_owned(),
@@ -92,18 +126,49 @@ impl<'a> MeshView<'a> {
             });
         }
         for (index, corners) in self.mesh.triangles.iter().enumerate() {
-            let count = vertices.len();
-            if let Some(bad) = corners.iter().find(|v| v.index() >= count) {
-                return Err(WriteError::IndexOutOfRange {
-                    file: file.to_owned(),
-                    item: "triangle",
-                    index,
-                    target: bad.index(),
-                    count,
-                });
+            self.check_indices(file, "triangle", index, corners)?;
+        }
+        for (index, edge) in self.marked_edges.unwrap_or(&[]).iter().enumerate() {
+            self.check_indices(file, "edge", index, &edge.ends)?;
+        }
+        Ok(())
+    }
+
+    fn check_lengths(&self, file: &str) -> Result<(), WriteError> {
+        let (vertices, triangles) = (self.mesh.vertices.len(), self.mesh.triangles.len());
+        let arrays = [
+            ("input indices", vertices, self.input_indices.map(<[_]>::len)),
+            ("vertex markers", vertices, self.vertex_markers.map(<[_]>::len)),
+            ("regions", triangles, self.regions.map(<[_]>::len)),
+        ];
+        for (array, expected, found) in arrays {
+            if let Some(found) = found
+                && found != expected
+            {
+                return Err(WriteError::Length { file: file.to_owned(), array, expected, found });
             }
         }
         Ok(())
+    }
+
+    fn check_indices(
+        &self,
+        file: &str,
+        item: &'static str,
+        index: usize,
+        vertices: &[VertexId],
+    ) -> Result<(), WriteError> {
+        let count = self.mesh.vertices.len();
+        match vertices.iter().find(|v| v.index() >= count) {
+            None => Ok(()),
+            Some(bad) => Err(WriteError::IndexOutOfRange {
+                file: file.to_owned(),
+                item,
+                index,
+                target: bad.index(),
+                count,
+            }),
+        }
     }
 }
 
@@ -113,6 +178,9 @@ impl fmt::Debug for MeshView<'_> {
             .field("vertices", &self.mesh.vertices.len())
             .field("triangles", &self.mesh.triangles.len())
             .field("input_indices", &self.input_indices.is_some())
+            .field("vertex_markers", &self.vertex_markers.is_some())
+            .field("regions", &self.regions.is_some())
+            .field("marked_edges", &self.marked_edges.map(<[_]>::len))
             .field("certificate", &self.certificate.is_some())
             .field("picture", &self.picture)
             .finish()

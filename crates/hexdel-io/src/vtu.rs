@@ -1,7 +1,8 @@
 //! VTK's XML format of unstructured grids (`.vtu`), for `ParaView` and its kin.
 //!
-//! Cell data are `min_angle` and `max_angle` in degrees, point data is
-//! `input_index` (-1 for Steiner points) if the mesh view has it.
+//! Cell data are `min_angle` and `max_angle` in degrees and `region`, the attribute
+//! of the triangle's region; point data are `input_index` (-1 for Steiner points)
+//! and `marker`; what the mesh view does not have is left out.
 //!
 //! Arrays are stored in place as base64 of little-endian binary with a 64-bit byte
 //! count before them ("binary" in VTK's terms, uncompressed): coordinates keep
@@ -75,13 +76,18 @@ fn cells(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
 }
 
 fn point_data(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
-    let Some(indices) = view.input_indices else {
+    if view.input_indices.is_none() && view.vertex_markers.is_none() {
         return Ok(());
-    };
-    let values = indices.iter().map(|index| index.map_or(-1, i64::from));
-    let values = values.map(i64::to_le_bytes);
+    }
     out.write_all(b"<PointData>\n")?;
-    array(out, "type=\"Int64\" Name=\"input_index\"", indices.len(), values)?;
+    if let Some(indices) = view.input_indices {
+        let values = indices.iter().map(|index| index.map_or(-1, i64::from));
+        array(out, "type=\"Int64\" Name=\"input_index\"", indices.len(), values.map(i64::to_le_bytes))?;
+    }
+    if let Some(markers) = view.vertex_markers {
+        let values = markers.iter().map(|m| m.to_le_bytes());
+        array(out, "type=\"Int32\" Name=\"marker\"", markers.len(), values)?;
+    }
     out.write_all(b"</PointData>\n")
 }
 
@@ -93,11 +99,14 @@ fn cell_data(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     out.write_all(b"<CellData>\n")?;
     array(out, "type=\"Float64\" Name=\"min_angle\"", count, smallest)?;
     array(out, "type=\"Float64\" Name=\"max_angle\"", count, largest)?;
+    if let Some(regions) = view.regions {
+        array(out, "type=\"Float64\" Name=\"region\"", count, regions.iter().map(|r| r.to_le_bytes()))?;
+    }
     out.write_all(b"</CellData>\n")
 }
 
 /// Writes `count` values of `N` bytes each.
-fn array<const N: usize>(
+pub(crate) fn array<const N: usize>(
     out: &mut dyn Write,
     attributes: &str,
     count: usize,

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use hexdel_geom::{DVec2, Pslg, TriMesh, VertexId};
 use hexdel_io::{
-    MeshFormat, MeshView, Overlay, OverlayClass, Picture, Polygon, ReadError, Rgb, WriteError, read_mesh,
-    write_mesh, write_mesh_to, write_points,
+    MarkedEdge, MeshFormat, MeshView, Overlay, OverlayClass, Picture, Polygon, ReadError, Rgb, WriteError,
+    read_mesh, write_mesh, write_mesh_to, write_points,
 };
 
 /// `n` by `n` squares, each halved.
@@ -48,6 +48,39 @@ fn a_pair_of_files_and_nothing_else() {
     assert_eq!(nodes, "4 2 0 0\n0 0.0 0.0\n1 1.0 0.0\n2 0.0 1.0\n3 1.0 1.0\n");
     let elements = fs::read_to_string(folder.path().join("m.ele")).unwrap();
     assert_eq!(elements, "2 3 0\n0 0 1 3\n1 0 3 2\n");
+}
+
+#[test]
+fn markers_and_regions_are_written() {
+    let mesh = squares(1);
+    let markers = [7, 1, -2, 0];
+    let regions = [1.5, 0.0];
+    let view = MeshView::new(&mesh).with_vertex_markers(&markers).with_regions(&regions);
+    let folder = tempfile::tempdir().unwrap();
+    write_mesh(folder.path().join("m.ele"), &view).unwrap();
+    let nodes = fs::read_to_string(folder.path().join("m.node")).unwrap();
+    assert_eq!(nodes, "4 2 0 1\n0 0.0 0.0 7\n1 1.0 0.0 1\n2 0.0 1.0 -2\n3 1.0 1.0 0\n");
+    let elements = fs::read_to_string(folder.path().join("m.ele")).unwrap();
+    assert_eq!(elements, "2 3 1\n0 0 1 3 1.5\n1 0 3 2 0.0\n");
+    assert_eq!(read_mesh(folder.path().join("m.ele")).unwrap(), mesh);
+    let vtu = text(MeshFormat::Vtu, &view);
+    assert!(vtu.contains("Name=\"marker\"") && vtu.contains("Name=\"region\""));
+    let ron = text(MeshFormat::Ron, &view);
+    assert!(ron.contains("vertex_markers") && ron.contains("regions"), "{ron}");
+}
+
+#[test]
+fn arrays_that_do_not_fit_are_named() {
+    let mesh = squares(1);
+    let edge = MarkedEdge { ends: [0, 4].map(VertexId::new), marker: 1 };
+    for (view, words) in [
+        (MeshView::new(&mesh).with_vertex_markers(&[1]), "1 vertex markers instead of 4"),
+        (MeshView::new(&mesh).with_regions(&[0.0; 3]), "3 regions instead of 2"),
+        (MeshView::new(&mesh).with_marked_edges(&[edge]), "edge 0 refers to number 4 of 4"),
+    ] {
+        let error = write_mesh_to(&mut Vec::new(), MeshFormat::Vtu, &view, "stream").unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
+    }
 }
 
 #[test]

@@ -9,9 +9,10 @@
 
 mod support;
 
+use std::sync::Mutex;
 use std::time::Instant;
 
-use hexdel_geom::{AngleBounds, DVec2, Unwatched};
+use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase};
 use hexdel_optimize::{Effort, OptimizeError, Options, Stats, optimize};
 use hexdel_refine::Start as Coarse;
 use support::{Rule, points, start};
@@ -64,7 +65,8 @@ fn run(name: &str, rule: Rule, options: &Options) {
     let cpu = cpu_seconds();
     let ms = || (cpu_seconds() - cpu) * 1e3 / n;
     let wall = Instant::now();
-    let (result, bad) = match optimize(start.mesh, &start.kinds, options, &Unwatched) {
+    let rounds_ms = Rounds::default();
+    let (result, bad) = match optimize(start.mesh, &start.kinds, options, &rounds_ms) {
         Ok(result) => (result, 0),
         Err(OptimizeError::Unreached { best, bad, .. }) => (*best, bad),
         Err(error) => return println!("{name}: {error}"),
@@ -82,6 +84,22 @@ fn run(name: &str, rule: Rule, options: &Options) {
         shakes[0],
         wall.elapsed().as_secs_f64(),
     );
+    let seen = rounds_ms.0.into_inner().expect("no panic");
+    let each: Vec<String> = seen.windows(2).map(|w| format!("{:.3}", (w[1].1 - w[0].1) * 1e3 / n)).collect();
+    println!("  CPU ms/pt of each round: {}", each.join(" "));
+}
+
+/// Prints the CPU time at which each round begins.
+#[derive(Default)]
+struct Rounds(Mutex<Vec<(u64, f64)>>);
+
+impl Monitor for Rounds {
+    fn progress(&self, _: Phase, done: u64, _: u64) {
+        let mut seen = self.0.lock().expect("no panic");
+        if seen.last().is_none_or(|last| last.0 != done) {
+            seen.push((done, cpu_seconds()));
+        }
+    }
 }
 
 /// CPU time of this process so far; zero where the system does not tell.

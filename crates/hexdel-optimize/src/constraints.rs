@@ -71,6 +71,12 @@ pub(crate) struct Rules<'a> {
     max_area: Option<AreaLimit<'a>>,
 }
 
+impl std::fmt::Debug for Rules<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Rules").field("far", &self.far).field("near", &self.near).finish_non_exhaustive()
+    }
+}
+
 impl<'a> Rules<'a> {
     pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
         Self {

@@ -13,12 +13,14 @@
 //! | `schedule` | [`optimize`]: rounds of work over all parts of the mesh |
 //! | `partition` | cuts the mesh into parts, the same for any number of threads |
 //! | `repair` | brings all angles inside |
+//! | `rescue` | refines where repair gives up |
 //! | `decimate` | removes vertices |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill` | candidate changes of topology and their ranking |
 //! | `work` | a mesh under work: patch, flips, commit, rollback |
 //! | `patch` | moves the vertices of a patch until its angles hold |
 //! | `flip` | Lawson flips in a patch |
+//! | [`live`] | a mesh that fixed vertices come to and go from |
 //! | `mesh` | the editable mesh with its journal |
 //! | `angles` | bounds as polynomial tests |
 //!
@@ -33,6 +35,7 @@ mod decimate;
 mod error;
 mod flip;
 mod import;
+pub mod live;
 mod mesh;
 mod options;
 mod outline;
@@ -41,6 +44,7 @@ mod patch;
 mod random;
 mod refill;
 mod repair;
+mod rescue;
 mod schedule;
 mod shake;
 mod work;

@@ -1,9 +1,10 @@
 //! Cuts a mesh into parts that can be worked on side by side.
 //!
 //! A part is a set of triangles; the vertices it shares with others are frozen
-//! while it is worked on. Each round cuts elsewhere, so that what lies on a
-//! seam now lies inside a part next time. The cuts depend on the mesh and the
-//! round alone, never on the number of threads.
+//! while it is worked on. Each round cuts elsewhere and in another direction,
+//! so that what lies on a seam now lies inside a part next time. Where only a
+//! few triangles need work, the parts are the neighbourhoods of these. Cuts
+//! depend on the mesh and the round alone, never on the number of threads.
 
 use hexdel_geom::DVec2;
 
@@ -17,6 +18,28 @@ const PART: usize = 4000;
 /// from round to round; near the middle but never at the same place.
 const CUTS: [usize; 5] = [50, 41, 57, 45, 62];
 
+/// Directions of the cuts, in turn; every other one is perpendicular. Where
+/// triangles are much larger than elsewhere, moving a cut along its direction
+/// is not enough to part it from the triangle it passes. Pythagorean, so the
+/// vectors are as good as exact.
+const DIRECTIONS: [DVec2; 7] = [
+    DVec2::new(1.0, 0.0),
+    DVec2::new(4.0 / 5.0, 3.0 / 5.0),
+    DVec2::new(5.0 / 13.0, 12.0 / 13.0),
+    DVec2::new(12.0 / 13.0, 5.0 / 13.0),
+    DVec2::new(3.0 / 5.0, 4.0 / 5.0),
+    DVec2::new(40.0 / 41.0, 9.0 / 41.0),
+    DVec2::new(9.0 / 41.0, 40.0 / 41.0),
+];
+
+/// Which triangles are worked on, and with which others.
+pub(crate) struct Cuts {
+    /// The triangles of each part, ascending.
+    pub(crate) parts: Vec<Vec<u32>>,
+    /// The triangles that nobody works on, ascending.
+    rest: Vec<u32>,
+}
+
 /// Triangles of one part and what is needed to merge it again.
 pub(crate) struct Part {
     pub(crate) mesh: Mesh,
@@ -25,17 +48,82 @@ pub(crate) struct Part {
     pub(crate) failed: Vec<u8>,
 }
 
-/// The triangles of each part, ascending.
-pub(crate) fn partition(soup: &Soup, round: usize) -> Vec<Vec<u32>> {
-    let centre = |t: u32| soup.tris[t as usize].iter().map(|v| soup.pos[*v as usize]).sum::<DVec2>();
-    let mut items: Vec<(DVec2, u32)> = (0..soup.tris.len() as u32).map(|t| (centre(t), t)).collect();
+/// Cuts the whole mesh.
+pub(crate) fn partition(soup: &Soup, round: usize) -> Cuts {
+    Cuts { parts: cut(soup, 0..soup.tris.len() as u32, round), rest: Vec::new() }
+}
+
+/// The triangles up to `rings` rings around each of `bad`. Neighbourhoods that
+/// touch are one part, unless that gets too large.
+pub(crate) fn spots(soup: &Soup, bad: &[u32], rings: usize, round: usize) -> Cuts {
+    let mut near = vec![false; soup.pos.len()];
+    for &t in bad {
+        for v in soup.tris[t as usize] {
+            near[v as usize] = true;
+        }
+    }
+    for _ in 1..rings {
+        let mut next = near.clone();
+        for t in soup.tris.iter().filter(|t| t.iter().any(|v| near[*v as usize])) {
+            for &v in t {
+                next[v as usize] = true;
+            }
+        }
+        near = next;
+    }
+    let is_near = |t: &u32| soup.tris[*t as usize].iter().any(|v| near[*v as usize]);
+    let (inside, rest): (Vec<u32>, Vec<u32>) = (0..soup.tris.len() as u32).partition(is_near);
+    let parts = components(soup, &inside).into_iter().flat_map(|part| cut(soup, part, round)).collect();
+    Cuts { parts, rest }
+}
+
+/// Triangles that share vertices, directly or through others, together; each
+/// set ascending, the sets by their first triangle.
+fn components(soup: &Soup, triangles: &[u32]) -> Vec<Vec<u32>> {
+    let mut parent: Vec<u32> = (0..soup.pos.len() as u32).collect();
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    for &t in triangles {
+        let [a, b, c] = soup.tris[t as usize].map(|v| root(&mut parent, v));
+        let least = a.min(b).min(c);
+        for v in [a, b, c] {
+            parent[v as usize] = least;
+        }
+    }
+    let mut index = vec![NONE; soup.pos.len()];
+    let mut sets: Vec<Vec<u32>> = Vec::new();
+    for &t in triangles {
+        let set = root(&mut parent, soup.tris[t as usize][0]) as usize;
+        if index[set] == NONE {
+            index[set] = sets.len() as u32;
+            sets.push(Vec::new());
+        }
+        sets[index[set] as usize].push(t);
+    }
+    sets
+}
+
+/// Halves a set of triangles until the parts are small.
+fn cut(soup: &Soup, triangles: impl IntoIterator<Item = u32>, round: usize) -> Vec<Vec<u32>> {
+    let axis = DIRECTIONS[round % DIRECTIONS.len()];
+    // In the frame of the direction.
+    let place = |t: u32| {
+        let sum = soup.tris[t as usize].iter().map(|v| soup.pos[*v as usize]).sum::<DVec2>();
+        (DVec2::new(axis.dot(sum), axis.perp_dot(sum)), t)
+    };
+    let mut items: Vec<(DVec2, u32)> = triangles.into_iter().map(place).collect();
     let mut parts = Vec::new();
-    cut(&mut items, CUTS[round % CUTS.len()], &mut parts);
+    halve(&mut items, CUTS[round % CUTS.len()], &mut parts);
     parts
 }
 
 /// Halves `items` along their longer extent until the parts are small.
-fn cut(items: &mut [(DVec2, u32)], at: usize, parts: &mut Vec<Vec<u32>>) {
+fn halve(items: &mut [(DVec2, u32)], at: usize, parts: &mut Vec<Vec<u32>>) {
     if items.len() <= PART {
         let mut part: Vec<u32> = items.iter().map(|i| i.1).collect();
         part.sort_unstable();
@@ -49,8 +137,8 @@ fn cut(items: &mut [(DVec2, u32)], at: usize, parts: &mut Vec<Vec<u32>>) {
     let middle = items.len() * at / 100;
     items.select_nth_unstable_by(middle, |a, b| key(a.0).total_cmp(&key(b.0)).then(a.1.cmp(&b.1)));
     let (left, right) = items.split_at_mut(middle);
-    cut(left, at, parts);
-    cut(right, at, parts);
+    halve(left, at, parts);
+    halve(right, at, parts);
 }
 
 /// What the parts need to know of the whole.
@@ -64,11 +152,11 @@ pub(crate) struct Seams {
 }
 
 impl Seams {
-    pub(crate) fn new(soup: &Soup, parts: &[Vec<u32>]) -> Self {
+    pub(crate) fn new(soup: &Soup, cuts: &Cuts) -> Self {
         let mut degree = vec![0u16; soup.pos.len()];
         let mut owner = vec![NONE; soup.pos.len()];
         let mut shared = vec![false; soup.pos.len()];
-        for (p, part) in parts.iter().enumerate() {
+        for (p, part) in cuts.parts.iter().chain([&cuts.rest]).enumerate() {
             for &v in part.iter().flat_map(|&t| &soup.tris[t as usize]) {
                 let v = v as usize;
                 degree[v] += 1;
@@ -116,9 +204,9 @@ fn of(vertices: &[u32], values: &[bool]) -> Vec<bool> {
     if values.is_empty() { Vec::new() } else { vertices.iter().map(|&v| values[v as usize]).collect() }
 }
 
-/// Puts the parts together again: the vertices that are left keep their order,
-/// new ones follow, part by part.
-pub(crate) fn merge(soup: &Soup, parts: &[Part]) -> Soup {
+/// Puts the parts and the rest together again: the vertices that are left keep
+/// their order, new ones follow, part by part.
+pub(crate) fn merge(soup: &Soup, cuts: &Cuts, parts: &[Part]) -> Soup {
     let mut pos = soup.pos.clone();
     let mut failed = soup.failed.clone();
     let mut dead = vec![false; soup.pos.len()];
@@ -157,6 +245,10 @@ pub(crate) fn merge(soup: &Soup, parts: &[Part]) -> Soup {
             out.tris.push(tri.v.map(|v| names[v as usize]));
             out.bound.push(tri.bound);
         }
+    }
+    for &t in &cuts.rest {
+        out.tris.push(soup.tris[t as usize].map(|v| renamed[v as usize]));
+        out.bound.push(soup.bound[t as usize]);
     }
     out
 }

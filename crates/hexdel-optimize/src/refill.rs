@@ -169,7 +169,7 @@ impl<'a> Corner<'a> {
 
 /// How little room `degree` triangles leave in a sector: the inverse of the
 /// distance of their mean angle to the bounds, in degrees, plus one.
-fn degree_cost(limits: &Limits, sector: f64, degree: usize) -> f64 {
+pub(crate) fn degree_cost(limits: &Limits, sector: f64, degree: usize) -> f64 {
     if degree == 1 && sector <= limits.max_rad {
         // The angle between two segments is what it is.
         return 0.0;

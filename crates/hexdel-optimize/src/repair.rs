@@ -43,8 +43,9 @@ pub(crate) fn step(round: usize) -> Step {
 /// Rounds that come before removals: motion alone.
 pub(crate) const FIRST_ROUNDS: usize = 3;
 
-/// Rounds after which a mesh is given up.
-pub(crate) const ROUNDS: usize = 31;
+/// The steps of each round of search, after which a mesh is given up.
+pub(crate) const SEARCH: [(usize, usize); 7] =
+    [(3, 7), (7, 11), (11, 15), (15, 19), (19, 23), (23, 27), (27, 31)];
 
 /// Energy has to fall below this share for an unsolved patch to be kept.
 const KEEP_BELOW: f64 = 0.9;
@@ -74,7 +75,7 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
             }
             Step::Search { changes, rings, wide } => {
                 if !move_rings(work, t, rings) && work.is_bad(t) {
-                    search(work, t, changes, rings, wide);
+                    try_changes(work, t, changes, rings, wide);
                 }
             }
             Step::Thin if has_no_room(&work.mesh, t) => refine(work, t, f64::INFINITY),
@@ -84,8 +85,15 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
     }
 }
 
+/// Steps `from..to`, as long as triangles are bad.
+pub(crate) fn search(work: &mut Work, (from, to): (usize, usize)) {
+    for i in from..to {
+        repair(work, step(i));
+    }
+}
+
 /// Loads the patch of so many rings around triangle `t`.
-fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
+pub(crate) fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
     work.load(verts);
     for _ in 1..rings {
         work.grow();
@@ -117,7 +125,7 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
 
 /// Tries changes of topology near `t`, best first, and keeps the first that
 /// settles everything, or else the one that lowers the energy most.
-fn search(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
+fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let corners = work.mesh.tri[t as usize].v;
     let mut changes = Vec::new();
     load_rings(work, &corners, if wide { 2 } else { 1 });

@@ -14,10 +14,11 @@ use crate::error::OptimizeError;
 use crate::import::{Exported, export, import};
 use crate::mesh::Soup;
 use crate::options::{Effort, Optimized, Options, Stats, VertexKind};
-use crate::partition::{Part, Seams, extract, merge, partition};
+use crate::partition::{Cuts, Part, Seams, extract, merge, partition, spots};
 use crate::random::Random;
 use crate::refill::Refills;
-use crate::repair::{self, repair};
+use crate::repair::{self, repair, search};
+use crate::rescue::rescue;
 use crate::shake::{SHAKES, shake};
 use crate::work::Work;
 
@@ -107,6 +108,16 @@ const FAST_PASSES: usize = 5;
 /// again for 3 to 4 % fewer triangles.
 const STANDARD_PASSES: usize = 9;
 
+/// Rings around bad triangles that are one part, in turn: as far as changes
+/// reach, and some more with each round.
+const SPOT_RINGS: [usize; 4] = [8, 9, 10, 12];
+
+/// The same for rescues.
+const RESCUE_RINGS: [usize; 4] = [10, 14, 18, 24];
+
+/// Of so many triangles one may be bad for a rescue to be tried.
+const HOPELESS: usize = 20;
+
 /// Parts that a thread works on between two looks at clock and monitor: some
 /// tenths of a second.
 const BATCH: usize = 4;
@@ -148,28 +159,28 @@ impl<'a> Run<'a> {
     /// not settle often goes with a vertex, and search is cheaper on the
     /// coarser mesh.
     fn all(&mut self) -> Result<(), Stop> {
-        self.repair(0, repair::FIRST_ROUNDS)?;
+        self.move_all()?;
         let passes = if self.options.effort == Effort::Fast { FAST_PASSES } else { STANDARD_PASSES };
         self.decimate(0, passes)?;
-        self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
+        self.search()?;
         if self.options.effort == Effort::Best {
             self.decimate(STANDARD_PASSES, PASSES.len())?;
             for _ in 0..SHAKES {
                 self.round(shake)?;
             }
-            self.repair(repair::FIRST_ROUNDS, repair::ROUNDS)?;
+            self.search()?;
         }
         Ok(())
     }
 
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        repair::ROUNDS
-            + match self.options.effort {
-                Effort::Fast => FAST_PASSES,
-                Effort::Standard => STANDARD_PASSES,
-                Effort::Best => PASSES.len() + SHAKES + repair::ROUNDS - repair::FIRST_ROUNDS,
-            }
+        let once = repair::FIRST_ROUNDS + repair::SEARCH.len() + RESCUE_RINGS.len();
+        match self.options.effort {
+            Effort::Fast => once + FAST_PASSES,
+            Effort::Standard => once + STANDARD_PASSES,
+            Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),
+        }
     }
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
@@ -181,12 +192,35 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn repair(&mut self, from: usize, to: usize) -> Result<(), Stop> {
-        for i in from..to {
+    /// Motion alone, over the whole mesh.
+    fn move_all(&mut self) -> Result<(), Stop> {
+        for i in 0..repair::FIRST_ROUNDS {
             if self.bad().is_empty() {
                 break;
             }
             self.round(|work| repair(work, repair::step(i)))?;
+        }
+        Ok(())
+    }
+
+    /// Changes of topology where triangles are left outside.
+    fn search(&mut self) -> Result<(), Stop> {
+        for (i, steps) in repair::SEARCH.into_iter().enumerate() {
+            let bad: Vec<u32> = self.bad().into_iter().map(|t| t as u32).collect();
+            if bad.is_empty() {
+                break;
+            }
+            let rings = SPOT_RINGS[i.min(SPOT_RINGS.len() - 1)];
+            let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
+            self.round_of(&cuts, |work| search(work, steps))?;
+        }
+        for rings in RESCUE_RINGS {
+            let bad: Vec<u32> = self.bad().into_iter().map(|t| t as u32).collect();
+            if bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+                break;
+            }
+            let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
+            self.round_of(&cuts, rescue)?;
         }
         Ok(())
     }
@@ -205,14 +239,19 @@ impl<'a> Run<'a> {
     /// Does `job` to every part of a new partition. When time is over the
     /// parts that are left stay as they are.
     fn round(&mut self, job: impl Fn(&mut Work) + Sync) -> Result<(), Stop> {
+        let cuts = partition(&self.soup, self.stats.rounds);
+        self.round_of(&cuts, job)
+    }
+
+    /// Does `job` to every part.
+    fn round_of(&mut self, cuts: &Cuts, job: impl Fn(&mut Work) + Sync) -> Result<(), Stop> {
         self.look()?;
         let round = self.stats.rounds;
-        let cuts = partition(&self.soup, round);
-        let seams = Seams::new(&self.soup, &cuts);
+        let seams = Seams::new(&self.soup, cuts);
         let seed = self.options.seed.wrapping_add((round as u64) << 32);
-        let mut parts = Vec::with_capacity(cuts.len());
+        let mut parts = Vec::with_capacity(cuts.parts.len());
         let batch = BATCH * rayon::current_num_threads();
-        for batch in cuts.chunks(batch) {
+        for batch in cuts.parts.chunks(batch) {
             let first = parts.len();
             let idle = match self.look() {
                 Err(Stop::Cancelled(c)) => return Err(Stop::Cancelled(c)),
@@ -231,7 +270,7 @@ impl<'a> Run<'a> {
                 parts.push(part);
             }
         }
-        self.soup = merge(&self.soup, &parts);
+        self.soup = merge(&self.soup, cuts, &parts);
         self.stats.rounds += 1;
         self.look()
     }

@@ -32,7 +32,7 @@ impl<'a> AreaLimits<'a> {
         let mut by_triangle = vec![f64::INFINITY; plane.tri_count() as usize];
         let mut seen = vec![false; by_triangle.len()];
         for region in regions {
-            let (Place::Inside(t) | Place::Edge(t, _)) = plane.locate(region.point, NONE) else { continue };
+            let Some(t) = plane.part_at(region.point, NONE) else { continue };
             flood(plane, vec![t], |t| {
                 if let Some(area) = region.max_area
                     && !seen[t as usize]

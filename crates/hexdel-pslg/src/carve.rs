@@ -1,6 +1,5 @@
 //! What lies outside and in holes goes; regions are told apart.
 
-use crate::net::insert::Place;
 use crate::net::{Kind, NONE, Net};
 use hexdel_geom::DVec2;
 
@@ -27,13 +26,10 @@ pub(crate) fn reached(net: &Net, holes: &[DVec2], outside: bool) -> Vec<bool> {
     }
     let mut hint = NONE;
     for &hole in holes {
-        match net.locate(hole, hint) {
-            Place::Inside(t) | Place::Edge(t, _) => {
-                stack.push(t);
-                hint = t;
-            }
-            // A hole that says no side of a segment, or none at all, is none.
-            Place::Vertex(_) | Place::Outside => {}
+        // A hole that says no side of a segment, or none at all, is none.
+        if let Some(t) = net.part_at(hole, hint) {
+            stack.push(t);
+            hint = t;
         }
     }
     flood(net, stack, |t| !std::mem::replace(&mut reached[t as usize], true));

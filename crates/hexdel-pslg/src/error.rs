@@ -137,6 +137,8 @@ pub enum Feature {
     Segment(usize),
     /// An edge of the convex hull that is no segment.
     Hull,
+    /// A point that repair made where segments cross.
+    Crossing,
 }
 
 impl std::fmt::Display for Feature {
@@ -145,6 +147,7 @@ impl std::fmt::Display for Feature {
             Self::Point(i) => write!(f, "point {i}"),
             Self::Segment(i) => write!(f, "segment {i}"),
             Self::Hull => write!(f, "the convex hull"),
+            Self::Crossing => write!(f, "a crossing of segments"),
         }
     }
 }

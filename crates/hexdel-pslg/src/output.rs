@@ -5,7 +5,6 @@ use crate::error::PslgError;
 use crate::fit::count_rings;
 use crate::fit::edits::parameter;
 use crate::fit::judge::{Judge, is_sector};
-use crate::net::insert::Place;
 use crate::net::{Kind, NONE, Net};
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
 use crate::sectors::{Sector, sector_near};
@@ -205,10 +204,7 @@ fn vertex_markers(parts: &Parts<'_>, edges: &[SegmentEdge], point_of_vertex: &[O
 fn regions(net: &Net, input: &Validated, numbers: &Numbers) -> Vec<Option<u32>> {
     let mut regions = vec![None; net.alive().count()];
     for (i, region) in input.pslg.regions.iter().enumerate() {
-        let start = match net.locate(region.point, NONE) {
-            Place::Inside(t) | Place::Edge(t, _) => t,
-            Place::Vertex(_) | Place::Outside => continue,
-        };
+        let Some(start) = net.part_at(region.point, NONE) else { continue };
         flood(net, vec![start], |t| {
             let region = &mut regions[numbers.triangle[t as usize] as usize];
             region.is_none() && {

@@ -208,6 +208,25 @@ fn markers_follow_triangles_habits() {
 }
 
 #[test]
+fn a_hole_or_region_on_a_vertex_of_the_mesh_counts() {
+    // The centre of the input is where the grid has a vertex.
+    let mut pslg = square(-2.0, 4.0);
+    append(&mut pslg, &square(-1.0, 2.0));
+    pslg.holes.push(DVec2::ZERO);
+    let options = Options::new().extent(Extent::Inside);
+    let carved = made(&pslg, &options.clone().max_area(0.01));
+    let total: f64 = (0..carved.mesh.triangles.len()).map(|t| area(&carved, t)).sum();
+    assert!((total - 12.0).abs() < 1e-9, "{total}");
+
+    pslg.holes.clear();
+    pslg.regions.push(Region { point: DVec2::ZERO, attribute: 7.0, max_area: Some(0.005) });
+    let divided = made(&pslg, &options);
+    let of_region = divided.region_of_triangle.iter().zip(0..).filter(|(region, _)| region.is_some());
+    let total: f64 = of_region.map(|(_, t)| area(&divided, t)).inspect(|a| assert!(*a <= 0.005)).sum();
+    assert!((total - 4.0).abs() < 1e-9, "{total}");
+}
+
+#[test]
 fn holes_that_touch_in_a_point_share_its_vertex() {
     let mut pslg = square(0.0, 8.0);
     append(&mut pslg, &chain(&[(2.0, 2.0), (4.0, 2.5), (4.0, 4.0), (2.5, 4.0)], true));

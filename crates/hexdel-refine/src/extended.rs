@@ -146,10 +146,9 @@ impl Rule for TopWithFins {
         if s.classes.moved3.is_empty() {
             return Window::EMPTY;
         }
-        let finned = s.classes.finned();
-        Direction::ALL
-            .into_iter()
-            .fold(Window::EMPTY, |set, d| set | s.classes.middle[d.index()] & finned.at(d.opposite()))
+        let finned = s.classes.finned().each_way();
+        let below = |d: usize| s.classes.middle[d] & finned[(d + 3) % 6];
+        below(0) | below(1) | below(2) | below(3) | below(4) | below(5)
     }
 }
 
@@ -174,14 +173,13 @@ impl Rule for TwoFinsBesideRun {
             return Window::EMPTY;
         }
         let mut set = Window::EMPTY;
-        for d in 0..6 {
-            // Around the top at -d, the next lies at d + 2, the one before at
-            // d - 2; the hexagon beyond it in the same direction again.
-            let (next, before) = (Direction::new(d + 2), Direction::new(d + 4));
-            let with_next = c.middle[d] & c.middle[(d + 1) % 6].at(next);
+        for (d, with_next) in c.with_next().into_iter().enumerate() {
             if with_next.is_empty() {
                 continue;
             }
+            // Around the top at -d, the next lies at d + 2, the one before at
+            // d - 2; the hexagon beyond it in the same direction again.
+            let (next, before) = (Direction::new(d + 2), Direction::new(d + 4));
             // The first of the two, and the second as its neighbour sees it:
             // its middle fin is one direction on.
             set |= (with_next & c.moved2.at(before)).moved(before).moved(before);

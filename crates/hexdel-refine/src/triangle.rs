@@ -14,9 +14,8 @@
 //! ```
 
 use crate::rule::{Rule, Situation};
-use hexdel_classify::class::single_run;
 use hexdel_classify::relocate::{from_run, towards_one, towards_two};
-use hexdel_classify::{Class, Classes, ExactBounds, Offset};
+use hexdel_classify::{Classes, ExactBounds, Offset};
 use hexdel_grid::{Direction, Hex, Window};
 use std::sync::OnceLock;
 
@@ -32,26 +31,15 @@ impl Rule for TriangleRule {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        let c = &s.classes;
-        let moved = c.moved1 | c.moved2 | c.moved4();
         let mut victims = Window::EMPTY;
+        let movement = Movement::of(&s.classes);
         // A pair one step beyond the tile may still have a victim within.
-        let near = moved & Window::with_margin(1);
-        if near.is_empty() {
+        if (movement.moved & Window::with_margin(1)).is_empty() {
             return victims;
         }
-        for d in [0, 1, 2].map(Direction::new) {
-            for a in (foreign_pairs(c, moved, d) & near).iter() {
-                let b = a.neighbour(d);
-                let kept = kept(d, Template::of(c, a), Template::of(c, b));
-                for (turn, kept) in [1, 5].into_iter().zip(kept) {
-                    let third = a.neighbour(d.turned(turn));
-                    if !c.moved3.contains(third) && kept >> Template::of(c, third).turned(d).0 & 1 == 0 {
-                        victims.insert(victim(c, [a, b, third]));
-                    }
-                }
-            }
-        }
+        movement.judge(movement.foreign::<0>(), Direction::new(0), &mut victims);
+        movement.judge(movement.foreign::<1>(), Direction::new(1), &mut victims);
+        movement.judge(movement.foreign::<2>(), Direction::new(2), &mut victims);
         victims
     }
 }
@@ -59,34 +47,94 @@ impl Rule for TriangleRule {
 /// The corner that the rule asks for because of one lattice triangle,
 /// counter-clockwise: what [`TriangleRule`] does for every triangle of a window.
 pub fn victim_of(c: &Classes, corners: [Hex; 3]) -> Option<Hex> {
-    let moved = c.moved1 | c.moved2 | c.moved4();
+    let m = Movement::of(c);
+    let pairs = [m.foreign::<0>(), m.foreign::<1>(), m.foreign::<2>()];
     let foreign = |a: Hex, b: Hex| {
         let along = Direction::ALL[..3].iter().find(|d| a.neighbour(**d) == b);
-        along.is_some_and(|&d| foreign_pairs(c, moved, d).contains(a))
+        along.is_some_and(|&d| pairs[d.index()].contains(a))
     };
     let [x, y, z] = corners;
     let asked = [(x, y), (y, z), (z, x)].into_iter().any(|(a, b)| foreign(a, b) || foreign(b, a));
     let three = corners.iter().any(|&at| c.moved3.contains(at));
-    let breaks =
-        || !ExactBounds::EXTENDED.hold(corners.map(|at| Offset::of(at) + Template::of(c, at).offset()));
-    (asked && !three && breaks()).then(|| victim(c, corners))
+    let breaks = || !ExactBounds::EXTENDED.hold(corners.map(|at| Offset::of(at) + m.template(at).offset()));
+    (asked && !three && breaks()).then(|| m.victim(corners))
 }
 
-/// The hexagons that are moved by another front than their neighbour in
-/// direction `d`: both are moved, they share no fin, and neither is the top of
-/// a three-finned hexagon beside the other.
-fn foreign_pairs(c: &Classes, moved: Window, d: Direction) -> Window {
-    let side = |by: usize| d.turned(by);
-    let pairs = moved & moved.at(d);
-    if pairs.is_empty() {
-        return pairs;
+/// Classes, and what moves.
+struct Movement<'a> {
+    c: &'a Classes,
+    /// All that a template moves, but for `MovedCenter3`.
+    moved: Window,
+    /// The tops of `MovedCenter3`, whatever else they are.
+    tops: Window,
+}
+
+impl<'a> Movement<'a> {
+    #[inline]
+    fn of(c: &'a Classes) -> Self {
+        let tops = if c.moved3.is_empty() { Window::EMPTY } else { c.tops() };
+        let moved4 = tops.without(c.finned() | c.subdivided);
+        Self { c, moved: c.moved1 | c.moved2 | moved4, tops }
     }
-    let foreign = pairs.without(c.subdivided.at(side(1)) | c.subdivided.at(side(5)));
-    if c.moved3.is_empty() {
-        return foreign;
+
+    /// The hexagons that are moved by another front than their neighbour in
+    /// direction `D`: both are moved, they share no fin, and neither is the top
+    /// of a three-finned hexagon beside the other.
+    #[inline]
+    fn foreign<const D: usize>(&self) -> Window {
+        let (c, d) = (self.c, const { Direction::new(D) });
+        let pairs = self.moved & self.moved.at(d);
+        if pairs.is_empty() {
+            return pairs;
+        }
+        // What is moved is not subdivided: where it has a fin, there is one.
+        let foreign = pairs.without(c.fins[(D + 1) % 6] | c.fins[(D + 5) % 6]);
+        if c.moved3.is_empty() {
+            return foreign;
+        }
+        let under = |by: usize| c.under[(D + by) % 6];
+        foreign.without(under(1) | under(5) | (under(2) | under(4)).at(d))
     }
-    let under = |by: usize| c.under[side(by).index()];
-    foreign.without(under(1) | under(5) | (under(2) | under(4)).at(d))
+
+    /// Adds the victims of all triangles at pairs, each given by its first; the
+    /// second lies in direction `d` of it.
+    fn judge(&self, pairs: Window, d: Direction, victims: &mut Window) {
+        for a in (pairs & Window::with_margin(1)).iter() {
+            let b = a.neighbour(d);
+            let kept = kept(d, self.template(a), self.template(b));
+            for (turn, kept) in [1, 5].into_iter().zip(kept) {
+                let third = a.neighbour(d.turned(turn));
+                if kept >> self.template(third).turned(d).0 & 1 == 0 && !self.c.moved3.contains(third) {
+                    victims.insert(self.victim([a, b, third]));
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn template(&self, at: Hex) -> Template {
+        if self.c.subdivided.contains(at) {
+            return Template::STAYS;
+        }
+        match self.c.subdivided.ring_of(at) {
+            0 if !self.tops.contains(at) => Template::STAYS,
+            0 => Template::OF_TOP[usize::from(self.c.under_of(at))],
+            fins => Template::OF_FINS[usize::from(fins)],
+        }
+    }
+
+    /// The corner to subdivide of a triangle that breaks the bounds.
+    fn victim(&self, corners: [Hex; 3]) -> Hex {
+        let [first, second, third] = corners.map(|at| (self.rank(at), at));
+        first.max(second).max(third).1
+    }
+
+    /// How much a hexagon is moved by its class, in the order victims are
+    /// chosen.
+    fn rank(&self, at: Hex) -> u8 {
+        let in_set = [(self.c.moved2, 3), (self.c.moved1, 2), (self.moved, 1)];
+        in_set.into_iter().find(|(set, _)| set.contains(at)).map_or(0, |(_, rank)| rank)
+    }
 }
 
 /// Where a vertex goes that is not a `MovedCenter3`: 0 if it stays, otherwise
@@ -98,26 +146,31 @@ struct Template(u8);
 impl Template {
     const COUNT: usize = 37;
 
-    #[inline]
-    fn of(c: &Classes, at: Hex) -> Self {
-        if c.subdivided.contains(at) {
-            return Self(0);
-        }
-        match c.subdivided.ring_of(at) {
-            0 if c.under.iter().all(|under| !under.contains(at)) => Self(0),
-            0 => Self::new(single_run(c.under_of(at)), 2),
-            fins => Self::new(single_run(fins), 0),
-        }
-    }
+    /// The hexagon stays, or it must be subdivided.
+    const STAYS: Self = Self(0);
 
-    /// Kinds from `first` on by the length of a run.
-    #[inline]
-    fn new(run: Option<(Direction, usize)>, first: usize) -> Self {
-        let longest = if first == 0 { 2 } else { 4 };
-        match run {
-            Some((d, n)) if n <= longest => Self((1 + 6 * (first + n - 1) + d.index()) as u8),
-            _ => Self(0),
+    /// By the fins, bit `i` for direction `i`.
+    const OF_FINS: [Self; 64] = Self::of_runs(0, 2);
+
+    /// By the `MovedCenter3` that a hexagon without fins is the top of.
+    const OF_TOP: [Self; 64] = Self::of_runs(2, 4);
+
+    /// For each set of directions that is one run of at most `longest`, the
+    /// kinds from `first` on by its length.
+    const fn of_runs(first: u8, longest: u8) -> [Self; 64] {
+        let mut table = [Self::STAYS; 64];
+        let mut length = 1;
+        while length <= longest {
+            let mut d = 0;
+            while d < 6 {
+                let run = (1_u32 << length) - 1;
+                let set = (run << d | run << d >> 6) & 63;
+                table[set as usize] = Self(1 + 6 * (first + length - 1) + d);
+                d += 1;
+            }
+            length += 1;
         }
+        table
     }
 
     /// Turned so that direction `d` becomes direction 0.
@@ -166,22 +219,6 @@ fn kept(d: Direction, a: Template, b: Template) -> [u64; 2] {
     })
 }
 
-/// The corner to subdivide of a triangle that breaks the bounds.
-fn victim(c: &Classes, corners: [Hex; 3]) -> Hex {
-    let [first, second, third] = corners.map(|at| (rank(c.class_of(at)), at));
-    first.max(second).max(third).1
-}
-
-/// How much a class is moved, in the order victims are chosen.
-fn rank(class: Class) -> u8 {
-    match class {
-        Class::MovedCenter2 => 3,
-        Class::MovedCenter1 => 2,
-        Class::MovedCenter4 => 1,
-        _ => 0,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,7 +235,7 @@ mod tests {
             let subdivided = if seed % 2 == 0 { holes } else { !holes };
             let c = Classes::of(subdivided);
             for at in Window::with_margin(1).without(c.moved3).iter() {
-                let template = Template::of(&c, at);
+                let template = Movement::of(&c).template(at);
                 assert_eq!(template.offset(), relocation(subdivided, at));
                 seen[usize::from(template.0)] = true;
             }

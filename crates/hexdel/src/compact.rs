@@ -20,13 +20,21 @@ pub(crate) fn options(bounds: AngleBounds, effort: Effort, budget: Option<Durati
     }
 }
 
-/// Optimises a mesh of the grid in place; false if angles are left outside the
-/// bounds, be it only by rounding.
+/// How optimisation ended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ended {
+    /// Whether every angle is within the bounds, leaving aside rounding.
+    pub(crate) reached: bool,
+    /// Whether the budget ended it.
+    pub(crate) spent: bool,
+}
+
+/// Optimises a mesh of the grid in place.
 pub(crate) fn optimize_dual(
     dual: &mut Dual,
     options: &Options,
     monitor: &dyn Monitor,
-) -> Result<bool, Error> {
+) -> Result<Ended, Error> {
     let mut fixed = vec![false; dual.mesh.vertices.len()];
     for v in &dual.vertex_of_occupant {
         fixed[v.index()] = true;
@@ -39,12 +47,12 @@ pub(crate) fn optimize_dual(
         Err(OptimizeError::Cancelled(c)) => return Err(Error::Cancelled(c)),
         Err(error) => return Err(Error::Optimize(error)),
     };
-    let Optimized { mesh, vertices, .. } = optimized;
+    let Optimized { mesh, vertices, finished, .. } = optimized;
     dual.mesh = mesh;
     for v in &mut dual.vertex_of_occupant {
         *v = vertices[v.index()].expect("fixed vertices are never removed");
     }
-    Ok(reached)
+    Ok(Ended { reached, spent: !finished })
 }
 
 /// A monitor to whom work that starts anew looks like more of the same phase.

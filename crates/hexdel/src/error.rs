@@ -1,12 +1,14 @@
-//! Why points could not be meshed.
+//! Why points or a graph could not be meshed.
 
 use hexdel_classify::DualError;
 use hexdel_geom::{AngleBounds, Cancelled, Certificate, DVec2, DelaunayError, PointsError, TriMesh};
 use hexdel_optimize::OptimizeError;
+use hexdel_pslg::{PslgError, ValidateError};
 use hexdel_refine::RefineError;
 use thiserror::Error;
 
-/// Why points could not be meshed. Indices count the input points from 0.
+/// Why points or a graph could not be meshed. Points and segments are counted
+/// from 0, as given.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -77,6 +79,32 @@ pub enum Error {
         /// The bounds the method keeps for every input.
         kept: AngleBounds,
     },
+    /// The segments of a graph cross or overlap, or its arrays do not fit
+    /// together.
+    #[error(transparent)]
+    Segments(ValidateError),
+    /// A graph could not be meshed.
+    #[error(transparent)]
+    Pslg(PslgError),
+    /// A tolerance of repair is not a number, or negative.
+    #[error("{tolerance:?} is no tolerance")]
+    InvalidTolerance {
+        /// The tolerance asked for.
+        tolerance: f64,
+    },
+    /// An option that points have no use for; as a graph without segments they
+    /// may.
+    #[error("{option} is for graphs, not for points")]
+    NotForPoints {
+        /// The option.
+        option: &'static str,
+    },
+    /// An option that graphs have no use for.
+    #[error("{option} is for points, not for graphs")]
+    NotForGraphs {
+        /// The option.
+        option: &'static str,
+    },
     /// The mesh would be too large for 32-bit indices.
     #[error("the mesh would have {count} vertices, more than an index can hold")]
     TooManyVertices {
@@ -133,6 +161,25 @@ impl From<DualError> for Error {
         match error {
             DualError::TooManyVertices { count } => Self::TooManyVertices { count },
             _ => Self::Cancelled(Cancelled),
+        }
+    }
+}
+
+impl From<ValidateError> for Error {
+    fn from(error: ValidateError) -> Self {
+        match error {
+            ValidateError::Points(error) => Self::Points(error),
+            ValidateError::OutOfRange { index, point, limit } => Self::OutOfRange { index, point, limit },
+            other => Self::Segments(other),
+        }
+    }
+}
+
+impl From<PslgError> for Error {
+    fn from(error: PslgError) -> Self {
+        match error {
+            PslgError::Cancelled(c) => Self::Cancelled(c),
+            other => Self::Pslg(other),
         }
     }
 }

@@ -18,6 +18,9 @@
 //! # Ok::<(), hexdel::Error>(())
 //! ```
 //!
+//! [`triangulate_pslg`] meshes graphs of points and segments, with holes and
+//! regions, at 30 to 90 degrees along the segments.
+//!
 //! [`Mesher`] has the options. This crate holds no algorithm: the layers below
 //! it can be used on their own.
 //!
@@ -28,6 +31,7 @@
 //! | [`classify`] | classes of hexagons, templates, the dual mesh |
 //! | [`refine`] | the rules engine |
 //! | [`optimize`] | local optimisation to angle bounds |
+//! | [`pslg`] | segments, holes and regions |
 //! | [`io`] | formats and pictures |
 
 /// The examples of the README, so that they stay true.
@@ -38,6 +42,7 @@ struct Readme;
 mod compact;
 pub mod error;
 pub mod generate;
+mod graph;
 pub mod mesher;
 pub mod picture;
 mod placement;
@@ -48,12 +53,16 @@ pub use hexdel_geom as geom;
 pub use hexdel_grid as grid;
 pub use hexdel_io as io;
 pub use hexdel_optimize as optimize;
+pub use hexdel_pslg as pslg;
 pub use hexdel_refine as refine;
 
 pub use error::Error;
+pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry};
+pub use graph::result::PslgTriangulation;
+pub use graph::{Domain, triangulate_pslg};
 pub use hexdel_geom::{
-    AngleBounds, Certificate, DVec2, Monitor, Phase, TriMesh, TriangleId, Unwatched, VertexId,
+    AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
 };
 pub use hexdel_optimize::Effort;
-pub use mesher::{Mesher, Method, triangulate};
+pub use mesher::{Mesher, Method, Start, triangulate};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

@@ -1,7 +1,8 @@
 //! Options, and the one call.
 
-use crate::compact::{self, Again};
+use crate::compact::{self, Again, Ended};
 use crate::error::Error;
+use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
 use crate::triangulation::{Patch, Seconds, Triangulation};
 use hexdel_classify::{Domain, Dual, Relocation, extract};
@@ -54,13 +55,16 @@ impl Method {
     }
 }
 
-/// A mesh of the grid.
+/// The mesh of the grid that a mesh was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Start {
+#[non_exhaustive]
+pub enum Start {
+    /// All rules and templates of section 5.
     Templates,
+    /// The rules of section 4.
     Simple,
-    /// Legal classes only, a third of the triangles of the templates: to be
-    /// repaired.
+    /// Legal classes only, a third of the triangles of the templates: repaired
+    /// by [`Method::Compact`].
     Coarse,
 }
 
@@ -82,7 +86,10 @@ impl Start {
     }
 }
 
-/// Meshes points, with options.
+/// Meshes points, or a graph of points and segments, with options.
+///
+/// Options say what they are for where it is not both: one that the call has no
+/// use for is [`Error::NotForPoints`] or [`Error::NotForGraphs`].
 ///
 /// ```
 /// use hexdel::{DVec2, Mesher, Method};
@@ -94,13 +101,14 @@ impl Start {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Mesher {
-    method: Method,
-    bounds: Option<AngleBounds>,
-    domain_radius: Option<f64>,
+    pub(crate) method: Method,
+    pub(crate) bounds: Option<AngleBounds>,
+    pub(crate) domain_radius: Option<f64>,
     threads: Option<usize>,
-    without_coarsening: bool,
+    pub(crate) without_coarsening: bool,
     effort: Effort,
     budget: Option<Duration>,
+    pub(crate) graph: GraphOptions,
 }
 
 /// Meshes points with the default options.
@@ -150,7 +158,9 @@ impl Mesher {
 
     /// The bounds that the mesh is held to, by default those the method keeps.
     /// They may be wider; narrower ones are for
-    /// [`Method::Compact`] only.
+    /// [`Method::Compact`] only. Of graphs, the default is 30 to 90 degrees in
+    /// triangles at most one edge away from a point or segment, and 43.9 to 90
+    /// elsewhere.
     ///
     /// ```
     /// # use hexdel::{AngleBounds, DVec2, Error, Mesher};
@@ -165,7 +175,7 @@ impl Mesher {
         self
     }
 
-    /// Circumradius of the hexagon that the mesh covers, in input units. Its
+    /// Circumradius of the hexagon that a mesh of points covers, in input units. Its
     /// centre is that of the points' smallest enclosing circle, two of its
     /// corners lie east and west. By default as small as the method allows.
     ///
@@ -200,7 +210,7 @@ impl Mesher {
     }
 
     /// Whether hexagons are merged again where all rules allow it (section
-    /// 5.3): a tenth fewer triangles. On by default.
+    /// 5.3): a tenth fewer triangles. On by default; always, for graphs.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, generate};
@@ -292,17 +302,26 @@ impl Mesher {
         points: &[DVec2],
         monitor: &dyn Monitor,
     ) -> Result<Triangulation, Error> {
+        self.on_threads(|| self.run(points, monitor))
+    }
+
+    /// Works on as many threads as asked for.
+    pub(crate) fn on_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> Result<T, Error> + Send,
+    ) -> Result<T, Error> {
         let Some(threads) = self.threads else {
-            return self.run(points, monitor);
+            return work();
         };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .map_err(|_| Error::Threads { threads })?;
-        pool.install(|| self.run(points, monitor))
+        pool.install(work)
     }
 
     fn run(&self, points: &[DVec2], monitor: &dyn Monitor) -> Result<Triangulation, Error> {
+        self.graph.refuse_for_points()?;
         let kept = self.method.bounds();
         let bounds = self.bounds.unwrap_or(kept);
         let compact = self.method == Method::Compact;
@@ -352,16 +371,16 @@ impl Mesher {
         let domain = placement.domain(refiner.grid(), relocation)?;
         let occupants = refiner.occupants();
         let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
-        let mut reached = true;
+        let mut ended = Ended { reached: true, spent: false };
         if self.method == Method::Compact {
             let options = compact::options(bounds, self.effort, self.budget);
-            reached = compact::optimize_dual(&mut dual, &options, monitor)?;
+            ended = compact::optimize_dual(&mut dual, &options, monitor)?;
         }
         let extracted = Instant::now();
 
         check(monitor)?;
         let certificate = match self.finish(&mut dual, bounds, placement, points, monitor) {
-            Err(Error::NotCertified { mesh, certificate }) if !reached => {
+            Err(Error::NotCertified { mesh, certificate }) if !ended.reached => {
                 return Err(Error::Unreached { mesh, certificate });
             }
             done => done?,
@@ -373,6 +392,8 @@ impl Mesher {
             mesh: dual.mesh,
             certificate,
             method: self.method,
+            start,
+            budget_spent: ended.spent,
             patch: patch(placement, domain),
             max_level: deepest(&refiner) - domain.base_level,
             seconds: Seconds {

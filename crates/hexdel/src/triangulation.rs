@@ -1,6 +1,6 @@
 //! The result: a mesh, what it promises, and how it was made.
 
-use crate::mesher::Method;
+use crate::mesher::{Method, Start};
 use hexdel_classify::Domain;
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId};
 use hexdel_refine::Refiner;
@@ -17,6 +17,12 @@ pub struct Triangulation {
     pub certificate: Certificate,
     /// How it was made.
     pub method: Method,
+    /// The mesh of the grid that was the start: for [`Method::Compact`] the
+    /// templates' only where the coarse one did not lead to the bounds, or with
+    /// a budget.
+    pub start: Start,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// What it covers.
     pub patch: Patch,
     /// Levels used below the coarsest.
@@ -56,6 +62,10 @@ pub struct Seconds {
 pub struct Report<'a> {
     /// How the mesh was made.
     pub method: &'static str,
+    /// The mesh of the grid that was the start.
+    pub start: &'static str,
+    /// Whether optimisation ended because its time did.
+    pub budget_spent: bool,
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
@@ -84,6 +94,12 @@ impl Triangulation {
                 Method::Simple => "simple",
                 Method::Compact => "compact",
             },
+            start: match self.start {
+                Start::Templates => "templates",
+                Start::Simple => "simple",
+                Start::Coarse => "coarse",
+            },
+            budget_spent: self.budget_spent,
             certificate: &self.certificate,
             max_level: self.max_level,
             domain_radius: self.patch.radius,

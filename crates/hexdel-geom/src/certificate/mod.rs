@@ -41,6 +41,7 @@
 //! turn of a spiral staircase seen from above, passes.
 
 mod inputs;
+mod local;
 mod topology;
 pub(crate) mod triangles;
 
@@ -50,6 +51,8 @@ use serde::{Deserialize, Serialize};
 use crate::bounds::AngleBounds;
 use crate::mesh::{TriMesh, TriangleId, VertexId};
 use crate::scale::{max_abs, scale_to};
+
+pub use local::keeps_bounds;
 
 /// An angle within this many degrees of a bound is within the bound.
 ///

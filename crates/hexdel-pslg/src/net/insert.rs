@@ -21,6 +21,26 @@ pub(crate) enum Place {
 }
 
 impl Net {
+    /// A triangle of the part of the plane, as segments divide it, that a point
+    /// lies in; none outside, and none on a segment, which has two sides.
+    pub(crate) fn part_at(&self, p: DVec2, hint: u32) -> Option<u32> {
+        match self.locate(p, hint) {
+            Place::Inside(t) => Some(t),
+            Place::Edge(t, i) => (self.tri(t).s[i] == NONE).then_some(t),
+            Place::Vertex(v) => {
+                let mut star = Vec::with_capacity(8);
+                self.star(v, &mut star);
+                // The segment of an edge stands at the corner opposite.
+                let on_segment = |&t: &u32| {
+                    let tri = self.tri(t);
+                    (0..3).any(|i| tri.v[i] != v && tri.s[i] != NONE)
+                };
+                (!star.iter().any(on_segment)).then(|| self.some_triangle(v))
+            }
+            Place::Outside => None,
+        }
+    }
+
     /// Finds a point by walking from triangle `hint`.
     pub(crate) fn locate(&self, p: DVec2, hint: u32) -> Place {
         let mut t = if hint < self.tri_count() && self.tri(hint).alive() {

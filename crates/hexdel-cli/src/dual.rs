@@ -1,0 +1,67 @@
+//! `hexdel dual`: the Voronoi dual of a mesh, whoever made it.
+
+use crate::exit::{Failure, Outcome, Verdict, print};
+use crate::outputs::Outputs;
+use hexdel::geom::{Voronoi, VoronoiSummary};
+use std::path::PathBuf;
+
+/// Voronoi cells of a mesh, for finite volumes and exterior calculus
+#[derive(clap::Args)]
+#[command(after_help = "\
+    Each vertex has a cell, cut off at the boundary. Weights are half the sums of the\n\
+    cotangents opposite an edge: dual length over length, the transmissibilities of a\n\
+    two-point flux. Exits with 1 if one is negative.\n\n\
+    Formats, by extension:\n  \
+    .vtu             cells as polygons, with their vertex and area\n  \
+    .v.node, .v.edge circumcentres and the edges between them, as Triangle has them\n\n\
+    Examples:\n  \
+    hexdel dual mesh.ele -o cells.vtu\n  \
+    hexdel dual mesh.vtu -o mesh.v.node --json")]
+pub(crate) struct Args {
+    /// Mesh, in any format that is read
+    mesh: PathBuf,
+    /// File to write; may be given several times
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &Args) -> Outcome {
+    let mut outputs = Outputs::default();
+    outputs.protect_input(&args.mesh);
+    for path in &args.output {
+        outputs.add_dual(path)?;
+    }
+    let mesh = hexdel_io::read_mesh(&args.mesh)?;
+    let file = args.mesh.display().to_string();
+    let dual = Voronoi::new(&mesh).map_err(|source| Failure::Voronoi { file: file.clone(), source })?;
+    outputs.write(|_, path| Ok(hexdel_io::write_dual(path, &mesh, &dual)?))?;
+    let summary = dual.summary();
+    print(&if args.json {
+        serde_json::to_string_pretty(&summary)? + "\n"
+    } else {
+        readable(&file, &dual, &summary)
+    })?;
+    Ok(if summary.negative_weights == 0 { Verdict::Holds } else { Verdict::Fails })
+}
+
+fn readable(file: &str, dual: &Voronoi<'_>, summary: &VoronoiSummary) -> String {
+    format!(
+        "{file}: {} edges, {} cells\n\
+         weights    {} negative, the smallest {}\n\
+         triangles  {} do not hold their circumcentre\n\
+         dual edges the shortest {}, skew at most {:.1e}\n\
+         cells      the smallest area {}\n",
+        dual.edges.len(),
+        dual.areas.iter().filter(|area| **area != 0.0).count(),
+        summary.negative_weights,
+        summary.min_weight,
+        summary.obtuse_triangles,
+        summary.shortest_dual_edge,
+        summary.max_skew,
+        summary.min_area,
+    )
+}

@@ -1,0 +1,87 @@
+//! Insertions into a compact mesh and removals from it: how many find room,
+//! what each costs, and what the mesh comes to.
+//!
+//! `cargo run --release -p hexdel-optimize --example live_bench -- POINTS CHANGES`
+
+mod support;
+
+use std::time::Instant;
+
+use hexdel_geom::{AngleBounds, CertifyOptions, DVec2, Unwatched, certify};
+use hexdel_optimize::live::LiveMesh;
+use hexdel_optimize::{Effort, Options, optimize};
+use hexdel_refine::Start;
+use support::{Rule, points, start};
+
+#[allow(clippy::print_stdout, reason = "an example prints")]
+fn main() {
+    let mut args = std::env::args().skip(1).map(|a| a.parse::<usize>().expect("a number"));
+    let (n, changes) = (args.next().unwrap_or(1000), args.next().unwrap_or(100));
+    let all = points::uniform(n + changes, 1);
+    let bounds = AngleBounds::EXTENDED;
+    let begin = start(&all[..n], Rule::Coarse(Start::Among));
+    let options = Options::new(bounds, Effort::Standard);
+    let made = optimize(begin.mesh, &begin.kinds, &options, &Unwatched).expect("reached");
+    println!(
+        "{n} points: {} triangles, {:.2} per point",
+        made.mesh.triangles.len(),
+        made.mesh.triangles.len() as f64 / n as f64
+    );
+    let mut live = LiveMesh::new(made.mesh, &made.kinds, bounds).expect("a mesh");
+    let mut times = Vec::new();
+    let mut failed = 0;
+    let mut touched = 0;
+    let mut slots = Vec::new();
+    for &p in &all[n..] {
+        let began = Instant::now();
+        match live.insert(p) {
+            Ok(slot) => slots.push(slot),
+            Err(error) => {
+                failed += 1;
+                println!("{error} {:.1} ms", began.elapsed().as_secs_f64() * 1e3);
+            }
+        }
+        times.push(began.elapsed().as_secs_f64() * 1e3);
+        let (_, delta) = live.take_step();
+        touched += delta.triangles_added.len();
+    }
+    report("insert", &mut times);
+    let count = live.counts()[1];
+    println!(
+        "failed {failed}, triangles touched per change {}, now {count} triangles, {:.2} per point",
+        touched / changes,
+        count as f64 / (n + changes - failed) as f64
+    );
+    check(&live, bounds, &all[..n]);
+    times.clear();
+    for slot in slots {
+        let began = Instant::now();
+        live.release(slot);
+        times.push(began.elapsed().as_secs_f64() * 1e3);
+        live.take_step();
+    }
+    report("remove", &mut times);
+    println!("now {} triangles", live.counts()[1]);
+    check(&live, bounds, &all[..n]);
+}
+
+fn report(what: &str, times: &mut [f64]) {
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
+    let mean = times.iter().sum::<f64>() / times.len() as f64;
+    println!(
+        "{what}: median {:.2} ms, 90 % {:.2}, 99 % {:.2}, most {:.2}, mean {mean:.2}",
+        at(0.5),
+        at(0.9),
+        at(0.99),
+        at(1.0)
+    );
+}
+
+fn check(live: &LiveMesh, bounds: AngleBounds, inputs: &[DVec2]) {
+    let certificate = certify(
+        &live.snapshot().mesh,
+        &CertifyOptions { bounds, inputs: Some(inputs), ..CertifyOptions::default() },
+    );
+    println!("certified: {}", certificate.holds());
+}

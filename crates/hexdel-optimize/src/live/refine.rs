@@ -1,0 +1,118 @@
+//! Triangles of a part cut in four, and their neighbours so that edges fit.
+//!
+//! Cutting in four keeps every angle. A neighbour with one side cut is halved
+//! and one with two is cut in three (Bank, Sherman & Weiser, "Refinement
+//! algorithms and data structures for regular local mesh refinement", 1983),
+//! which leaves the bounds: to be repaired.
+
+use std::collections::BTreeMap;
+
+use hexdel_geom::DVec2;
+
+use crate::live::cut::Cut;
+use crate::live::insert::{Tools, repair_rounds};
+use crate::mesh::{Around, Mesh, Motion, NONE, Vertices};
+use crate::work::Work;
+
+/// The part with the triangles that `inner` marks cut in four and all angles
+/// within the bounds again; none where that is not reached.
+pub(crate) fn refine<'a>(cut: &Cut, tools: &'a Tools, inner: &[bool]) -> Option<Work<'a>> {
+    let mut work = tools.work(cut_in_four(cut, inner)?, cut.failed.clone());
+    repair_rounds(&mut work).then_some(work)
+}
+
+/// The part with the triangles that `inner` marks cut in four; none if one of
+/// them has a side on the seam.
+fn cut_in_four(cut: &Cut, inner: &[bool]) -> Option<Mesh> {
+    let old = &cut.mesh;
+    let mut built = Builder {
+        pos: old.pos.clone(),
+        motion: old.motion.clone(),
+        sector: old.sector.clone(),
+        cut: BTreeMap::new(),
+    };
+    for (t, tri) in old.tri.iter().enumerate() {
+        for k in (0..3).filter(|_| inner[t]) {
+            let (a, b) = (tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]);
+            if tri.n[k] == NONE && [a, b].iter().all(|&v| old.motion[v as usize] == Motion::Frozen) {
+                return None;
+            }
+            built.cut_side(a, b, tri.n[k] == NONE);
+        }
+    }
+    let mut tris = Vec::with_capacity(2 * old.tri.len());
+    for tri in &old.tri {
+        built.triangle(tri.v, &mut tris);
+    }
+    let mut outside: Vec<u16> = vec![0; built.pos.len()];
+    for v in 0..old.pos.len() as u32 {
+        outside[v as usize] = old.degree(v) as u16;
+    }
+    for &v in old.tri.iter().flat_map(|t| &t.v) {
+        outside[v as usize] -= 1;
+    }
+    let vertices = Vertices {
+        pos: built.pos,
+        motion: built.motion,
+        sector: built.sector,
+        outside,
+        around: Around::default(),
+    };
+    Mesh::build(vertices, &tris, &[]).ok()
+}
+
+struct Builder {
+    pos: Vec<DVec2>,
+    motion: Vec<Motion>,
+    sector: Vec<f64>,
+    /// Sides cut, lower end first, and the vertex at their middle.
+    cut: BTreeMap<[u32; 2], u32>,
+}
+
+impl Builder {
+    fn cut_side(&mut self, a: u32, b: u32, rim: bool) {
+        let key = [a.min(b), a.max(b)];
+        if self.cut.contains_key(&key) {
+            return;
+        }
+        let (p, q) = (self.pos[a as usize], self.pos[b as usize]);
+        self.cut.insert(key, self.pos.len() as u32);
+        self.pos.push(0.5 * (p + q));
+        self.motion.push(if rim { Motion::Along((q - p).normalize()) } else { Motion::Free });
+        self.sector.push(if rim { std::f64::consts::PI } else { std::f64::consts::TAU });
+    }
+
+    fn middle(&self, a: u32, b: u32) -> Option<u32> {
+        self.cut.get(&[a.min(b), a.max(b)]).copied()
+    }
+
+    /// What a triangle becomes, by how many of its sides are cut.
+    fn triangle(&self, v: [u32; 3], out: &mut Vec<[u32; 3]>) {
+        // The middle of the side opposite each corner.
+        let m: [Option<u32>; 3] = std::array::from_fn(|k| self.middle(v[(k + 1) % 3], v[(k + 2) % 3]));
+        let turned = |k: usize| [v[k], v[(k + 1) % 3], v[(k + 2) % 3]];
+        match m {
+            [None, None, None] => out.push(v),
+            [Some(a), Some(b), Some(c)] => {
+                out.extend([[v[0], c, b], [c, v[1], a], [b, a, v[2]], [a, b, c]]);
+            }
+            _ => {
+                let cuts = m.iter().flatten().count();
+                let k = (0..3).find(|&k| m[k].is_some() == (cuts == 1)).expect("one side differs");
+                let [a, b, c] = turned(k);
+                if let Some(x) = m[k] {
+                    out.extend([[a, b, x], [a, x, c]]);
+                } else if let (Some(at_ca), Some(at_ab)) = (m[(k + 1) % 3], m[(k + 2) % 3]) {
+                    // The quadrilateral left is halved by its shorter diagonal.
+                    let d = |u: u32, w: u32| self.pos[u as usize].distance_squared(self.pos[w as usize]);
+                    out.push([a, at_ab, at_ca]);
+                    if d(at_ab, c) <= d(b, at_ca) {
+                        out.extend([[at_ab, b, c], [at_ab, c, at_ca]]);
+                    } else {
+                        out.extend([[at_ab, b, at_ca], [b, c, at_ca]]);
+                    }
+                }
+            }
+        }
+    }
+}

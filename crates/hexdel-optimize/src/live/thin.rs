@@ -1,0 +1,50 @@
+//! Removal of what has become superfluous around a change, for as long as that
+//! succeeds.
+
+use hexdel_geom::DVec2;
+
+use crate::decimate::{Pass, decimate};
+use crate::live::cut::{Cut, rings};
+use crate::live::insert::Tools;
+use crate::live::store::Store;
+
+/// Passes over one part, as in batches; what has failed before and has nothing
+/// new around is not tried again. A pass of four rings takes half as long
+/// again for a hundredth fewer triangles.
+const PASSES: [Pass; 2] = [
+    Pass { rings: 2, refills: 1, max_cost: 0.5, near: 0.0 },
+    Pass { rings: 3, refills: 2, max_cost: 0.6, near: 0.01 },
+];
+
+/// Parts that are worked on after one change, at most: what a removed point
+/// leaves coarsens by half with each.
+const MOST_PARTS: usize = 24;
+
+/// Rings around a change within which vertices are removed.
+const RINGS: usize = 5;
+
+/// Removes vertices around the vertex `at`, which was changed at `p`.
+pub(crate) fn thin(store: &mut Store, tools: &Tools, mut at: u32, p: DVec2) {
+    for _ in 0..MOST_PARTS {
+        let mut seeds = Vec::new();
+        store.around(at, |t| seeds.push(t));
+        let cut = Cut::new(store, rings(store, &seeds, RINGS));
+        let mut work = tools.work(cut.mesh.clone(), cut.failed.clone());
+        let removed: usize = PASSES.into_iter().map(|pass| decimate(&mut work, pass)).sum();
+        cut.put_back(store, &work.mesh, &work.failed);
+        if removed == 0 {
+            break;
+        }
+        if !store.vertex(at).alive() {
+            at = nearest(store, &cut, p).unwrap_or(at);
+        }
+    }
+}
+
+/// The vertex of the part that is left nearest to `p`.
+fn nearest(store: &Store, cut: &Cut, p: DVec2) -> Option<u32> {
+    let alive = cut.vertices.iter().copied().filter(|&v| store.vertex(v).alive());
+    alive.min_by(|&a, &b| {
+        store.at(a).distance_squared(p).total_cmp(&store.at(b).distance_squared(p)).then(a.cmp(&b))
+    })
+}

@@ -1,0 +1,296 @@
+//! Options of graphs, and the one call for them.
+//!
+//! What makes the mesh is `hexdel-pslg`. Here the graph is repaired if asked
+//! for, the domain settled, and the finished mesh checked for its segments.
+
+mod boxed;
+mod repair;
+pub(crate) mod report;
+pub(crate) mod result;
+mod verify;
+mod watch;
+
+use crate::error::Error;
+use crate::mesher::{Mesher, Method};
+use hexdel_geom::{AngleBounds, Monitor, Phase, Pslg, Unwatched};
+use hexdel_pslg::{Extent, Options, mesh, validate};
+use repair::Repaired;
+use result::PslgTriangulation;
+use watch::Stopwatch;
+
+/// The part of the plane that the mesh of a graph covers. Holes are left out of
+/// each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Domain {
+    /// A regular hexagon around the points. The default of graphs without
+    /// segments.
+    Hexagon,
+    /// The convex hull of the points.
+    Hull,
+    /// The rectangle around the points, with a margin of a tenth of its longer
+    /// side.
+    Box,
+    /// What segments enclose. The default of graphs with segments.
+    Inside,
+}
+
+impl Domain {
+    /// Its name in reports and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hexagon => "hexagon",
+            Self::Hull => "hull",
+            Self::Box => "box",
+            Self::Inside => "inside",
+        }
+    }
+
+    fn extent(self) -> Extent {
+        match self {
+            Self::Hexagon => Extent::Hexagon,
+            Self::Hull => Extent::Hull,
+            // The box is made of segments.
+            Self::Box | Self::Inside => Extent::Inside,
+        }
+    }
+}
+
+/// How a graph is repaired.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Tolerance {
+    /// In proportion to the graph.
+    Relative,
+    /// In input units.
+    Absolute(f64),
+}
+
+/// Options that points alone have no use for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct GraphOptions {
+    domain: Option<Domain>,
+    near: Option<AngleBounds>,
+    max_area: Option<f64>,
+    repair: Option<Tolerance>,
+}
+
+impl GraphOptions {
+    /// An error if any option is set but for the domain that points have.
+    pub(crate) fn refuse_for_points(&self) -> Result<(), Error> {
+        let other_domain = self.domain.is_some_and(|d| d != Domain::Hexagon);
+        let given = [
+            ("a domain other than the hexagon", other_domain),
+            ("bounds near segments", self.near.is_some()),
+            ("a limit on areas", self.max_area.is_some()),
+            ("repair", self.repair.is_some()),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((option, _)) => Err(Error::NotForPoints { option }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Meshes a graph of points and segments with the default options: what the
+/// segments enclose, without the holes, at 30 to 90 degrees.
+///
+/// # Errors
+///
+/// [`Error`], naming the points and segments at fault.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel::{DVec2, Pslg};
+///
+/// // A square with a square hole.
+/// let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0)];
+/// let mut plate = Pslg::from_points(corners.map(|(x, y)| DVec2::new(x, y)).to_vec());
+/// plate.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]];
+/// plate.holes = vec![DVec2::new(1.5, 1.5)];
+///
+/// let made = hexdel::triangulate_pslg(&plate)?;
+/// assert!(made.holds());
+/// let edges = made.edges.iter().filter(|e| e.segment == Some(4)).count();
+/// assert_eq!(edges as u32, made.edges_of_segment[4]);
+/// # Ok::<(), hexdel::Error>(())
+/// ```
+pub fn triangulate_pslg(pslg: &Pslg) -> Result<PslgTriangulation, Error> {
+    Mesher::new().triangulate_pslg(pslg)
+}
+
+/// Options and calls for graphs.
+impl Mesher {
+    /// What part of the plane the mesh of a graph covers: by default what its
+    /// segments enclose, or a hexagon if it has none.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Domain, Mesher, Pslg};
+    /// let points = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
+    /// let made = Mesher::new().domain(Domain::Hull).triangulate_pslg(&points)?;
+    /// assert!(made.mesh.vertices.iter().all(|v| v.x >= 0.0 && v.x <= 1.0));
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn domain(mut self, domain: Domain) -> Self {
+        self.graph.domain = Some(domain);
+        self
+    }
+
+    /// The bounds of triangles at most one edge away from a point or segment of
+    /// a graph, by default those of [`bounds`](Self::bounds), or else 30 to 90
+    /// degrees.
+    ///
+    /// ```
+    /// # use hexdel::{AngleBounds, DVec2, Mesher, Pslg};
+    /// let mut triangle = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::new(0.5, 0.8)]);
+    /// triangle.segments = vec![[0, 1], [1, 2], [2, 0]];
+    /// let made = Mesher::new().near_bounds(AngleBounds::new(35.0, 90.0)?).triangulate_pslg(&triangle)?;
+    /// assert!(made.holds() && made.certificate.min_angle_deg >= 35.0 - 1e-8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn near_bounds(mut self, bounds: AngleBounds) -> Self {
+        self.graph.near = Some(bounds);
+        self
+    }
+
+    /// The largest area of a triangle of a graph's mesh, in square input units.
+    /// Regions may have limits of their own, and keep both.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Pslg};
+    /// let mut square = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
+    /// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0]];
+    /// let made = Mesher::new().max_area(1e-3).triangulate_pslg(&square)?;
+    /// assert!(made.mesh.triangles.len() > 1000);
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn max_area(mut self, area: f64) -> Self {
+        self.graph.max_area = Some(area);
+        self
+    }
+
+    /// Repairs graphs first: points within a billionth of the graph's size
+    /// become one, segments are divided where they cross and where points lie on
+    /// them. [`PslgTriangulation::repairs`] tells all that was done.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Error, Mesher, Pslg};
+    /// // The diagonals of a square cross.
+    /// let mut square = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
+    /// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]];
+    /// let refused = hexdel::triangulate_pslg(&square).unwrap_err();
+    /// assert_eq!(refused.to_string(), "segments 4 and 5 cross at (0.5, 0.5)");
+    ///
+    /// let made = Mesher::new().repair().triangulate_pslg(&square)?;
+    /// assert_eq!(made.repairs.as_ref().map(|report| report.repairs.len()), Some(1));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn repair(mut self) -> Self {
+        self.graph.repair = Some(Tolerance::Relative);
+        self
+    }
+
+    /// As [`repair`](Self::repair), with a tolerance in input units.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Pslg};
+    /// let mut gap = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::new(0.01, 0.0)]);
+    /// gap.segments = vec![[0, 1], [1, 2], [2, 3]];
+    /// let made = Mesher::new().repair_within(0.02).triangulate_pslg(&gap)?;
+    /// assert_eq!(made.graph.points.len(), 3);
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn repair_within(mut self, tolerance: f64) -> Self {
+        self.graph.repair = Some(Tolerance::Absolute(tolerance));
+        self
+    }
+
+    /// Meshes a graph of points and segments, with holes and regions. Points
+    /// alone are a graph, too ([`Pslg::from_points`]).
+    ///
+    /// # Guarantees
+    ///
+    /// Every input point in the domain is a vertex, bit for bit. Every segment in
+    /// it is a union of edges, whose other vertices are the doubles nearest to
+    /// points of the segment. Triangles are counter-clockwise, exactly, and
+    /// Delaunay. Those that do not keep their bounds are listed with reason and
+    /// place: [`exempt`](PslgTriangulation::exempt) at corners of the input
+    /// narrower than the bound, [`failed`](PslgTriangulation::failed) elsewhere.
+    /// That none fails is not guaranteed; where segments meet at 30 degrees or
+    /// more it is what to expect. Same graph, same bytes, at any number of
+    /// threads.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`], naming the points and segments at fault.
+    pub fn triangulate_pslg(&self, pslg: &Pslg) -> Result<PslgTriangulation, Error> {
+        self.triangulate_pslg_watched(pslg, &Unwatched)
+    }
+
+    /// As [`triangulate_pslg`](Self::triangulate_pslg), reporting progress to a
+    /// monitor that may stop the work. Where bounds were not met, the phases up
+    /// to optimisation come again.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Cancelled`] if the monitor asks for it, else as
+    /// [`triangulate_pslg`](Self::triangulate_pslg).
+    pub fn triangulate_pslg_watched(
+        &self,
+        pslg: &Pslg,
+        monitor: &dyn Monitor,
+    ) -> Result<PslgTriangulation, Error> {
+        self.on_threads(|| self.run_pslg(pslg, monitor))
+    }
+
+    fn run_pslg(&self, pslg: &Pslg, monitor: &dyn Monitor) -> Result<PslgTriangulation, Error> {
+        self.refuse_for_graphs()?;
+        let watch = Stopwatch::new(monitor);
+        let repaired = Repaired::new(pslg, self.graph.repair)?;
+        let graph = &repaired.graph;
+        let given = self.graph.domain;
+        let domain =
+            given.unwrap_or(if graph.segments.is_empty() { Domain::Hexagon } else { Domain::Inside });
+        let boxed = (domain == Domain::Box).then(|| boxed::with_box(graph));
+        let validated = validate(boxed.as_ref().unwrap_or(graph)).map_err(|e| repaired.as_given(e))?;
+        let mut made =
+            mesh(&validated, &self.pslg_options(domain), &watch).map_err(|e| repaired.error_as_given(e))?;
+        if boxed.is_some() {
+            boxed::forget_box(&mut made, graph);
+        }
+        verify::list_all(&mut made);
+        let segments = verify::segments(&made, graph, validated.divided(), domain);
+        let total = made.mesh.triangles.len() as u64;
+        watch.progress(Phase::Certify, total, total);
+        Ok(PslgTriangulation::new(made, segments, repaired, domain, watch.seconds()))
+    }
+
+    fn refuse_for_graphs(&self) -> Result<(), Error> {
+        let given = [
+            ("the simple method", self.method == Method::Simple),
+            ("the radius of a domain", self.domain_radius.is_some()),
+            ("meshing without coarsening", self.without_coarsening),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((option, _)) => Err(Error::NotForGraphs { option }),
+            None => Ok(()),
+        }
+    }
+
+    fn pslg_options(&self, domain: Domain) -> Options {
+        let mut options = Options::new().extent(domain.extent());
+        if let Some(bounds) = self.bounds {
+            (options.near, options.far) = (bounds, bounds);
+        }
+        if let Some(near) = self.graph.near {
+            options.near = near;
+        }
+        options.max_area = self.graph.max_area;
+        options
+    }
+}

@@ -1,0 +1,168 @@
+//! The figures of a graph's mesh, for a file or a pipe.
+
+use super::result::PslgTriangulation;
+use crate::triangulation::Seconds;
+use hexdel_geom::{Certificate, DVec2, Pslg};
+use hexdel_pslg::{Exception, Reason, Repair};
+use serde::Serialize;
+
+/// The figures of a graph's mesh.
+///
+/// Points and segments are counted as in [`PslgTriangulation::graph`], those in
+/// `repairs` as given.
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct PslgReport<'a> {
+    /// How the mesh was made.
+    pub method: &'static str,
+    /// What it covers.
+    pub domain: &'static str,
+    /// Whether everything that was asked for is so, up to exempt corners.
+    pub holds: bool,
+    /// All that the certificate says.
+    #[serde(flatten)]
+    pub certificate: &'a Certificate,
+    /// How many segments there are.
+    pub segments: usize,
+    /// How many edges they consist of.
+    pub segment_edges: u32,
+    /// How many edges each consists of; 0 in a hole or outside of the domain.
+    pub edges_of_segment: &'a [u32],
+    /// Segments that edges were looked for and not found for.
+    pub segments_missing: usize,
+    /// Triangles that only a corner of the input puts out of bounds.
+    pub exempt: Vec<ExceptionEntry>,
+    /// Triangles out of bounds.
+    pub failed: Vec<ExceptionEntry>,
+    /// What repair did, in order.
+    pub repairs: Vec<RepairEntry>,
+    /// How often parts of the grid were refined because bounds were not met.
+    pub retries: u32,
+    /// How long it took.
+    pub seconds: Seconds,
+}
+
+/// A triangle that does not keep its bounds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ExceptionEntry {
+    /// Its index.
+    pub triangle: usize,
+    /// Its centroid.
+    pub at: DVec2,
+    /// Its smallest angle, degrees.
+    pub min_angle_deg: f64,
+    /// Its largest angle, degrees.
+    pub max_angle_deg: f64,
+    /// Why, in a word: "sector", "near sector" or "unsolved".
+    pub reason: &'static str,
+    /// The corner of the input to blame, if there is one.
+    pub corner: Option<Corner>,
+}
+
+/// A corner of the input between two segments that is narrower than the bound.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Corner {
+    /// The point where the segments meet.
+    pub point: u32,
+    /// Where it is.
+    pub at: DVec2,
+    /// The angle between the segments, degrees.
+    pub angle_deg: f64,
+}
+
+/// One thing that repair did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RepairEntry {
+    /// What, in words.
+    pub what: String,
+    /// Where.
+    pub at: DVec2,
+}
+
+impl<'a> PslgReport<'a> {
+    pub(super) fn new(made: &'a PslgTriangulation) -> Self {
+        let entries = |list: &[Exception]| list.iter().map(|e| ExceptionEntry::new(e, &made.graph)).collect();
+        let repairs = made.repairs.iter().flat_map(|report| &report.repairs);
+        Self {
+            method: "conform",
+            domain: made.domain.name(),
+            holds: made.holds(),
+            certificate: &made.certificate,
+            segments: made.graph.segments.len(),
+            segment_edges: made.edges_of_segment.iter().sum(),
+            edges_of_segment: &made.edges_of_segment,
+            segments_missing: made.segments.segments - made.segments.kept,
+            exempt: entries(&made.exempt),
+            failed: entries(&made.failed),
+            repairs: repairs.map(RepairEntry::new).collect(),
+            retries: made.retries,
+            seconds: made.seconds,
+        }
+    }
+}
+
+impl ExceptionEntry {
+    /// A triangle out of bounds in the mesh of `graph`.
+    ///
+    /// # Panics
+    ///
+    /// If the exception names a point that the graph does not have.
+    pub fn new(exception: &Exception, graph: &Pslg) -> Self {
+        let corner = |point: u32, angle_deg| Corner { point, at: graph.points[point as usize], angle_deg };
+        let (reason, corner) = match exception.reason {
+            Reason::Sector { point, angle_deg } => ("sector", Some(corner(point, angle_deg))),
+            Reason::NearSector { point, angle_deg, .. } => ("near sector", Some(corner(point, angle_deg))),
+            _ => ("unsolved", None),
+        };
+        let [min_angle_deg, max_angle_deg] = exception.angles_deg;
+        let triangle = exception.triangle.index();
+        Self { triangle, at: exception.at, min_angle_deg, max_angle_deg, reason, corner }
+    }
+}
+
+impl std::fmt::Display for ExceptionEntry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { triangle, at, min_angle_deg, max_angle_deg, .. } = self;
+        let DVec2 { x, y } = at;
+        write!(f, "triangle {triangle} at ({x}, {y}): {min_angle_deg:.4} to {max_angle_deg:.4} degrees, ")?;
+        match (self.reason, self.corner) {
+            ("sector", Some(Corner { point, angle_deg, .. })) => {
+                write!(f, "segments meet in point {point} at {angle_deg:.4}")
+            }
+            (_, Some(Corner { point, angle_deg, .. })) => {
+                write!(f, "near point {point}, where segments meet at {angle_deg:.4}")
+            }
+            _ => write!(f, "no way was found"),
+        }
+    }
+}
+
+impl RepairEntry {
+    fn new(repair: &Repair) -> Self {
+        let (what, at) = match *repair {
+            Repair::MergedPoint { point, into, at, distance } => {
+                (format!("point {point} went into point {into}, {distance:e} away"), at)
+            }
+            Repair::DroppedSegment { segment, at } => (format!("segment {segment} had no length"), at),
+            Repair::MergedSegments { segments: [a, b], ends } => {
+                (format!("segments {a} and {b} had a part in common"), ends[0])
+            }
+            Repair::DividedAtPoint { segment, at } => {
+                (format!("segment {segment} passed through a point"), at)
+            }
+            Repair::DividedAtCrossing { segments: [a, b], at } => {
+                (format!("segments {a} and {b} crossed"), at)
+            }
+            _ => (format!("{repair:?}"), DVec2::NAN),
+        };
+        Self { what, at }
+    }
+}
+
+impl std::fmt::Display for RepairEntry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} at ({}, {})", self.what, self.at.x, self.at.y)
+    }
+}
