@@ -115,7 +115,8 @@ impl Finder<'_> {
     /// What the angles of triangle `t` are outside.
     fn energy(&self, t: u32) -> f64 {
         let place = self.mesh.place(t);
-        self.rules.limits(place).energy(&place.view(self.mesh.measure(t)))
+        let limits = self.rules.limits(place);
+        limits.energy(&place.view(self.mesh.measure(t), limits))
     }
 
     fn removals(&mut self, v: u32) {

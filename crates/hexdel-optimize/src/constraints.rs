@@ -81,7 +81,7 @@ impl<'a> Rules<'a> {
     pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
         Self {
             far: Limits::new(bounds),
-            near: Limits::new(constraints.map_or(bounds, |c| c.near)),
+            near: Limits::new(constraints.map_or(bounds, |c| c.near)).without_tolerance(),
             max_area: constraints.and_then(|c| c.max_area),
         }
     }
@@ -107,7 +107,14 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(crate) fn is_good(&self, mesh: &Mesh, t: u32) -> bool {
         let place = mesh.place(t);
-        self.limits(place).loose(&place.view(mesh.measure(t)))
+        self.is_within(place, mesh.measure(t))
+    }
+
+    /// Whether a triangle at such a place keeps its bounds.
+    #[inline]
+    pub(crate) fn is_within(&self, place: Place, m: Measure) -> bool {
+        let limits = self.limits(place);
+        limits.loose(&place.view(m, limits))
     }
 
     /// Whether a triangle is no larger than it may be.

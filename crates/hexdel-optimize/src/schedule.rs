@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
         let is_bad = |&t: &usize| {
             let [a, b, c] = self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
             let place = self.soup.place(t, &near);
-            !self.rules.limits(place).loose(&place.view(Measure::of(a, b, c)))
+            !self.rules.is_within(place, Measure::of(a, b, c))
         };
         (0..self.soup.tris.len()).filter(is_bad).collect()
     }
