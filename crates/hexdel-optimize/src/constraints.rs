@@ -26,6 +26,10 @@ pub struct Constraints<'a> {
     /// vertex on a segment or from one of `points`, instead of those of the
     /// options. They must be wider.
     pub near: AngleBounds,
+    /// Whether an angle that is exactly at a bound of `near`, up to rounding,
+    /// is out of it. Right angles on both sides of an edge leave it to rounding
+    /// whether the edge is Delaunay.
+    pub strict: bool,
     /// No change makes a triangle larger than this where its centroid lies;
     /// square units of the mesh.
     pub max_area: Option<AreaLimit<'a>>,
@@ -38,6 +42,7 @@ impl std::fmt::Debug for Constraints<'_> {
             .field("edges", &self.edges.len())
             .field("points", &self.points.len())
             .field("near", &self.near)
+            .field("strict", &self.strict)
             .field("max_area", &self.max_area.is_some())
             .finish()
     }
@@ -81,7 +86,11 @@ impl<'a> Rules<'a> {
     pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
         Self {
             far: Limits::new(bounds),
-            near: Limits::new(constraints.map_or(bounds, |c| c.near)).without_tolerance(),
+            near: match constraints {
+                None => Limits::new(bounds),
+                Some(c) if c.strict => Limits::new(c.near).without_tolerance(),
+                Some(c) => Limits::new(c.near),
+            },
             max_area: constraints.and_then(|c| c.max_area),
         }
     }

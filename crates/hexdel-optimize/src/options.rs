@@ -25,6 +25,8 @@ pub enum VertexKind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Effort {
+    /// Only brings angles inside the bounds; vertices go where that helps.
+    Repair,
     /// Half of the passes of removals: a fifth more triangles than standard in
     /// two thirds of the time.
     Fast,

@@ -198,7 +198,7 @@ fn attempt(
     join(&mut verts);
     load_rings(work, &verts, rings);
     let before = work.patch.state(work.rules).energy;
-    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+    if !apply(&mut work.mesh, (work.rules, work.refills), action, &mut verts) {
         work.mesh.rollback();
         return None;
     }

@@ -160,8 +160,7 @@ impl<'a> Run<'a> {
     /// coarser mesh.
     fn all(&mut self) -> Result<(), Stop> {
         self.move_all()?;
-        let passes = if self.options.effort == Effort::Fast { FAST_PASSES } else { STANDARD_PASSES };
-        self.decimate(0, passes)?;
+        self.decimate(0, self.passes())?;
         self.search()?;
         if self.options.effort == Effort::Best {
             self.decimate(STANDARD_PASSES, PASSES.len())?;
@@ -173,12 +172,20 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Passes of removals before the first search.
+    fn passes(&self) -> usize {
+        match self.options.effort {
+            Effort::Repair => 0,
+            Effort::Fast => FAST_PASSES,
+            Effort::Standard | Effort::Best => STANDARD_PASSES,
+        }
+    }
+
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
         let once = repair::FIRST_ROUNDS + repair::SEARCH.len() + RESCUE_RINGS.len();
         match self.options.effort {
-            Effort::Fast => once + FAST_PASSES,
-            Effort::Standard => once + STANDARD_PASSES,
+            Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),
             Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),
         }
     }
