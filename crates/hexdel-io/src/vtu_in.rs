@@ -19,6 +19,7 @@ use quick_xml::events::{BytesStart, Event};
 
 use crate::data::MeshData;
 use crate::error::ReadError;
+use crate::lines::clip_message;
 use crate::view::MarkedEdge;
 use crate::vtu_array::{Appended, Array, Encoding, Values};
 
@@ -252,7 +253,7 @@ impl Grid {
     }
 
     fn fault(&self, message: String) -> ReadError {
-        ReadError::Xml { file: self.file.clone(), line: self.line.get(), message }
+        ReadError::Xml { file: self.file.clone(), line: self.line.get(), message: clip_message(message) }
     }
 
     /// Puts the pieces together.
