@@ -213,7 +213,7 @@ impl<'a> Run<'a> {
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
-            let bad: Vec<u32> = self.bad().into_iter().map(|t| t as u32).collect();
+            let bad = self.hopeful();
             if bad.is_empty() {
                 break;
             }
@@ -222,7 +222,7 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, |work| search(work, steps))?;
         }
         for rings in RESCUE_RINGS {
-            let bad: Vec<u32> = self.bad().into_iter().map(|t| t as u32).collect();
+            let bad = self.hopeful();
             if bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
@@ -230,6 +230,13 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, rescue)?;
         }
         Ok(())
+    }
+
+    /// Triangles outside the bounds for which there is hope.
+    fn hopeful(&self) -> Vec<u32> {
+        let corners = |t: usize| self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
+        let hope = |&t: &usize| !self.rules.is_hopeless(corners(t));
+        self.bad().into_iter().filter(hope).map(|t| t as u32).collect()
     }
 
     /// Triangles outside the bounds.

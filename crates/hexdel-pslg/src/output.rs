@@ -232,7 +232,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     let point = |site: u32| parts.input.points.input_of_site()[site as usize];
     let failed = net.alive().filter(|&t| parts.judge.is_out(net, t));
     let failed = failed.map(|t| {
-        let near = sector_near(net, t, parts.sectors, parts.input.points.sites());
+        let near = sector_near(net.corners(t), parts.sectors, parts.input.points.sites());
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
             point: point(sector.site),
             angle_deg: sector.angle_deg,
@@ -241,6 +241,10 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         entry(t, reason)
     });
     let failed: Vec<Exception> = failed.collect();
+    let narrow = |t: u32| {
+        let (sector, _) = sector_near(net.corners(t), parts.sectors, parts.input.points.sites())?;
+        Some(Reason::Sector { point: point(sector.site), angle_deg: sector.angle_deg })
+    };
     let sector = |t: u32| {
         let angles = quality::angles_deg(net.corners(t));
         (0..3).find_map(|i| match net.vertex(net.tri(t).v[i]).kind {
@@ -249,6 +253,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
             }
             _ => None,
         })
+        .or_else(|| if angles.iter().any(|&a| a < least - 1e-6) { narrow(t) } else { None })
     };
     let exempt = net
         .alive()

@@ -53,6 +53,9 @@ impl Judge<'_> {
 
     fn ordinary_limits(&self, net: &Net, t: u32, strict: bool) -> [Limits; 3] {
         let tri = net.tri(t);
+        if !strict && self.wedges.hold(net, tri.v) {
+            return [[0.0, self.near.max_deg()]; 3];
+        }
         let is_near = tri.v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
         let bounds = if is_near { self.near } else { self.far };
         let [lo, hi] = [bounds.min_deg(), bounds.max_deg()];
