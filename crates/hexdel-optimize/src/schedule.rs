@@ -122,6 +122,9 @@ const HOPELESS: usize = 20;
 /// tenths of a second.
 const BATCH: usize = 4;
 
+/// Rounds of search that hopeless triangles take part in.
+const HOPEFUL_ROUNDS: usize = 2;
+
 /// Why the work ends early.
 enum Stop {
     OutOfTime,
@@ -213,7 +216,7 @@ impl<'a> Run<'a> {
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
-            let bad = self.hopeful();
+            let bad = self.hopeful(i < HOPEFUL_ROUNDS);
             if bad.is_empty() {
                 break;
             }
@@ -222,7 +225,7 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, |work| search(work, steps))?;
         }
         for rings in RESCUE_RINGS {
-            let bad = self.hopeful();
+            let bad = self.hopeful(false);
             if bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
@@ -232,10 +235,10 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Triangles outside the bounds for which there is hope.
-    fn hopeful(&self) -> Vec<u32> {
+    /// Triangles outside the bounds for which there is hope, or all.
+    fn hopeful(&self, all: bool) -> Vec<u32> {
         let corners = |t: usize| self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
-        let hope = |&t: &usize| !self.rules.is_hopeless(corners(t));
+        let hope = |&t: &usize| all || !self.rules.is_hopeless(corners(t));
         self.bad().into_iter().filter(hope).map(|t| t as u32).collect()
     }
 

@@ -82,9 +82,9 @@ impl Judge<'_> {
     }
 }
 
-/// Limits of triangles that span a wedge: counter-clockwise, and not so flat as
-/// to keep what is around from being any good.
-const WEDGE_LIMITS: Limits = [0.0, 100.0];
+/// Limits of triangles that span a wedge: counter-clockwise, and not so flat that
+/// an edge would not be Delaunay.
+const WEDGE_LIMITS: Limits = [0.0, 90.0];
 
 /// Pairs of pieces that leave a site at so small an angle that triangles
 /// between them cannot keep any bounds. Least squares would spread their fault
