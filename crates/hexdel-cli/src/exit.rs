@@ -13,6 +13,8 @@ use thiserror::Error;
 pub(crate) enum Verdict {
     Holds,
     Fails,
+    /// Good, but the time was up before it was as good as can be.
+    Spent,
 }
 
 /// How a command ends.
@@ -25,9 +27,9 @@ pub(crate) enum Failure {
     Read(#[from] ReadError),
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// An error that is about a file's points.
+    /// An error that is about what is in a file.
     #[error("{file}: {source}")]
-    Mesh { file: String, source: hexdel::Error },
+    Mesh { file: String, source: Box<hexdel::Error> },
     #[error("{file}: {source}")]
     #[diagnostic(help("`hexdel check` tells all that is wrong with a mesh"))]
     Voronoi { file: String, source: hexdel::geom::VoronoiError },
@@ -43,30 +45,49 @@ pub(crate) enum Failure {
     ReplacesInput { file: PathBuf },
     #[error("{}: two outputs of the same name", file.display())]
     Twice { file: PathBuf },
+    #[error("{of} tells no levels or classes of hexagons to colour by")]
+    #[diagnostic(help(
+        "`hexdel mesh INPUT --method templates -o x.svg --colour level` knows them, and with --method simple"
+    ))]
+    NoHexagons { of: String },
+    /// What was read is nothing that the format of the output holds.
+    #[error("{file}: holds {found}, which {format} does not")]
+    #[diagnostic(help("a mesh goes to a format of meshes, points to one of points"))]
+    Conversion { file: String, found: &'static str, format: String },
+    #[error("standard {stream} has no extension to tell its format")]
+    #[diagnostic(help("name it with --format, or --input-format"))]
+    NoFormat { stream: &'static str },
     #[error("standard output: {0}")]
     Stdout(io::Error),
+    #[error("standard input: {0}")]
+    Stdin(io::Error),
+    #[error("{file}: {source}")]
+    Size { file: String, source: hexdel::SizeError },
+    #[error("{failed} commands failed")]
+    Commands { failed: usize },
     #[error("no JSON of the figures: {0}")]
     Json(#[from] serde_json::Error),
 }
 
 impl Failure {
     fn code(&self) -> u8 {
+        use hexdel::Error as E;
         match self {
-            Self::Mesh {
-                source: hexdel::Error::NotCertified { .. } | hexdel::Error::Unreached { .. },
-                ..
-            } => 1,
+            Self::Mesh { source, .. } if matches!(**source, E::NotCertified { .. } | E::Unreached { .. }) => {
+                1
+            }
             _ => 2,
         }
     }
 }
 
 /// Reports a failure on standard error and gives the exit code: 0 done, 1 a
-/// check failed, 2 bad input, usage or system.
+/// check failed, 2 bad input, usage or system, 3 done within the time given.
 pub(crate) fn finish(outcome: Outcome) -> ExitCode {
     match outcome {
         Ok(Verdict::Holds) => ExitCode::SUCCESS,
         Ok(Verdict::Fails) => ExitCode::from(1),
+        Ok(Verdict::Spent) => ExitCode::from(3),
         Err(failure) => {
             complain("error", &failure.to_string());
             if let Some(help) = failure.help() {

@@ -30,7 +30,7 @@ use crate::bounds::AngleBounds;
 use crate::certificate::triangles::{Fit, check_angles};
 use crate::incidence::{Fan, Incidence, well_formed};
 use crate::mesh::{TriMesh, TriangleId, VertexId};
-use crate::predicates::{locally_delaunay, orient2d};
+use crate::predicates::{locally_delaunay, orient2d, surely_acute};
 use crate::scale::ulp;
 
 /// Why a mesh could not be made Delaunay.
@@ -47,6 +47,8 @@ pub enum DelaunayError {
         corners: [VertexId; 3],
     },
     /// Two triangles at a vertex have the same edge in the same direction.
+    /// Noticed only where an edge from it has an angle opposite that is not
+    /// acute; the certificate notices it anywhere.
     #[error("the triangles at vertex {} ({}, {}) overlap", .vertex.index(), .at.x, .at.y)]
     Overlap {
         /// The vertex.
@@ -121,7 +123,10 @@ pub fn restore_constrained_delaunay(
     flippable: impl Fn([VertexId; 2]) -> bool,
 ) -> Result<FlipReport, DelaunayError> {
     let n = mesh.vertices.len();
-    if let Some(t) = mesh.triangles.par_iter().position_first(|&t| !well_formed(t, n)) {
+    let formed = |triangles: &[[VertexId; 3]]| triangles.iter().all(|&t| well_formed(t, n));
+    if !mesh.triangles.par_chunks(CHUNK).all(formed)
+        && let Some(t) = mesh.triangles.iter().position(|&t| !well_formed(t, n))
+    {
         let triangle = TriangleId::new(t);
         return Err(DelaunayError::Malformed { triangle, corners: mesh.triangles[t] });
     }
@@ -150,21 +155,47 @@ pub fn restore_constrained_delaunay(
 /// Vertices looked at by one thread at a time.
 const CHUNK: usize = 1 << 14;
 
+/// For each vertex whether an edge to a higher one has an angle opposite to it
+/// that is not acute for certain: an edge without is Delaunay.
+fn suspects(mesh: &TriMesh) -> Vec<bool> {
+    let lower_ends = |triangles: &[[VertexId; 3]]| {
+        let mut lower = Vec::new();
+        for &[a, b, c] in triangles {
+            let at = |v: VertexId| mesh.vertices[v.index()];
+            let (p, q, r) = (at(a), at(b), at(c));
+            for (u, w, [s, t]) in [(q - p, r - p, [b, c]), (r - q, p - q, [c, a]), (p - r, q - r, [a, b])] {
+                if !surely_acute(u, w) {
+                    lower.push(s.min(t));
+                }
+            }
+        }
+        lower
+    };
+    let parts: Vec<Vec<VertexId>> = mesh.triangles.par_chunks(CHUNK).map(lower_ends).collect();
+    let mut suspects = vec![false; mesh.vertices.len()];
+    for v in parts.into_iter().flatten() {
+        suspects[v.index()] = true;
+    }
+    suspects
+}
+
 /// The edges that are not Delaunay, by lower vertex.
 fn scan(mesh: &TriMesh, incidence: &Incidence) -> Result<Vec<[u32; 2]>, DelaunayError> {
     let n = mesh.vertices.len();
+    let suspects = suspects(mesh);
     let parts: Vec<Result<Vec<[u32; 2]>, DelaunayError>> = (0..n.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
             let (mut fan, mut bad) = (Fan::default(), Vec::new());
-            for v in chunk * CHUNK..n.min((chunk + 1) * CHUNK) {
+            for v in (chunk * CHUNK..n.min((chunk + 1) * CHUNK)).filter(|&v| suspects[v]) {
                 fan.load(mesh, v, incidence.around(v));
                 if fan.is_tangled() {
                     let at = mesh.vertices[v];
                     return Err(DelaunayError::Overlap { vertex: VertexId::new(v), at });
                 }
                 bad.extend(fan.upward_quads(v).filter_map(|quad| {
-                    let [a, b, c, d] = quad.map(|v| mesh.vertices[v as usize]);
+                    let at = |i: usize| mesh.vertices[quad[i] as usize];
+                    let [a, b, c, d] = [at(0), at(1), at(2), at(3)];
                     (!locally_delaunay(a, b, c, d)).then_some([quad[0], quad[2]])
                 }));
             }

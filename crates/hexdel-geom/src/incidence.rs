@@ -133,6 +133,9 @@ pub(crate) struct Fan {
     pub(crate) successor: Vec<u32>,
     /// For each triangle the last one whose `successor` it is, or [`NONE`].
     predecessor: Vec<u32>,
+    /// Whether the triangles are joined to one cycle, as inside a mesh. Then
+    /// `predecessor`, `merging` and `sorted` are not filled.
+    closed: bool,
     /// Whether a triangle is the successor of two.
     merging: bool,
     /// `next` with positions, sorted; filled for large fans only.
@@ -142,20 +145,68 @@ pub(crate) struct Fan {
 /// Up to this many triangles, looking at all pairs beats sorting.
 const SMALL_FAN: usize = 16;
 
+/// The corners of a triangle after and before `v`.
+#[inline]
+fn ends(mesh: &TriMesh, v: usize, t: u32) -> (u32, u32) {
+    let [a, b, c] = mesh.triangles[t as usize];
+    let (next, prev) = match v {
+        v if v == a.index() => (b, c),
+        v if v == b.index() => (c, a),
+        _ => (a, b),
+    };
+    (next.index() as u32, prev.index() as u32)
+}
+
 impl Fan {
     /// Makes this the fan of vertex `v` with the given triangles around it.
     pub(crate) fn load(&mut self, mesh: &TriMesh, v: usize, around: &[u32]) {
         self.triangles.clear();
         self.triangles.extend_from_slice(around);
+        self.closed = around.len() <= SMALL_FAN && self.load_closed(mesh, v, around);
+        if !self.closed {
+            self.load_any(mesh, v, around);
+        }
+    }
+
+    /// Loads a small fan and says whether it is one cycle.
+    ///
+    /// A walk from successor to successor that is back where it began after as
+    /// many steps as there are triangles has passed them all. Each is then the
+    /// successor of one, which none of two with the same `next` or `prev` would
+    /// be: the fan is in order.
+    fn load_closed(&mut self, mesh: &TriMesh, v: usize, around: &[u32]) -> bool {
+        let n = around.len();
+        let [mut next, mut prev, mut successor] = [[0; SMALL_FAN]; 3];
+        for ((&t, next), prev) in around.iter().zip(&mut next).zip(&mut prev) {
+            (*next, *prev) = ends(mesh, v, t);
+        }
+        let mut at = 0;
+        for step in 1..=n {
+            let Some(j) = next[..n].iter().position(|&w| w == prev[at]) else {
+                return false;
+            };
+            successor[at] = j as u32;
+            at = j;
+            if at == 0 && step < n {
+                return false;
+            }
+        }
+        let fill = |into: &mut Vec<u32>, from: &[u32]| {
+            into.clear();
+            into.extend_from_slice(from);
+        };
+        fill(&mut self.next, &next[..n]);
+        fill(&mut self.prev, &prev[..n]);
+        fill(&mut self.successor, &successor[..n]);
+        n > 0 && at == 0
+    }
+
+    /// Loads a fan of any size and form.
+    fn load_any(&mut self, mesh: &TriMesh, v: usize, around: &[u32]) {
         self.next.clear();
         self.prev.clear();
         for &t in around {
-            let [a, b, c] = mesh.triangles[t as usize].map(|v| v.index() as u32);
-            let (next, prev) = match v as u32 {
-                v if v == a => (b, c),
-                v if v == b => (c, a),
-                _ => (a, b),
-            };
+            let (next, prev) = ends(mesh, v, t);
             self.next.push(next);
             self.prev.push(prev);
         }
@@ -194,17 +245,20 @@ impl Fan {
 
     /// Whether an earlier triangle has the same directed edge from the vertex.
     pub(crate) fn repeats_next(&self, i: usize) -> bool {
-        self.leaving_to(self.next[i]) != i as u32
+        !self.closed && self.leaving_to(self.next[i]) != i as u32
     }
 
     /// Whether two triangles have the same directed edge to or from the
     /// vertex. Those that go to the vertex and have no partner may be missed.
     pub(crate) fn is_tangled(&self) -> bool {
-        self.merging || (0..self.len()).any(|i| self.repeats_next(i))
+        !self.closed && (self.merging || (0..self.len()).any(|i| self.repeats_next(i)))
     }
 
     /// Whether the triangles are joined to one path or one cycle.
     pub(crate) fn is_single(&self) -> bool {
+        if self.closed {
+            return true;
+        }
         // Successors that are distinct make paths, each with one start and
         // one end, and cycles.
         if self.is_tangled() || self.successor.iter().filter(|&&s| s == NONE).count() > 1 {

@@ -57,7 +57,9 @@ impl TriMesh {
     /// # Panics
     ///
     /// If `t` or one of its corners is not of this mesh.
+    #[inline]
     pub fn corners(&self, t: TriangleId) -> [DVec2; 3] {
-        self.triangles[t.index()].map(|v| self.vertices[v.index()])
+        let [a, b, c] = self.triangles[t.index()];
+        [self.vertices[a.index()], self.vertices[b.index()], self.vertices[c.index()]]
     }
 }

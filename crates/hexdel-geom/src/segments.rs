@@ -18,6 +18,7 @@ use serde::Serialize;
 use crate::incidence::Incidence;
 use crate::mesh::{TriMesh, VertexId};
 use crate::points::coordinate_key;
+use crate::predicates::orient2d;
 
 /// How far a vertex may be from the segment it lies on, in last places of the
 /// largest coordinate. The double nearest to a point of the segment is at most
@@ -32,7 +33,7 @@ pub struct SegmentCheck {
     pub segments: usize,
     /// How many of them are unions of edges.
     pub kept: usize,
-    /// The first that are not, in order.
+    /// The others, in order.
     pub missing: Vec<MissingSegment>,
     /// The edges that segments consist of, as far as they could be followed:
     /// each with its lower vertex first, sorted, once.
@@ -59,9 +60,6 @@ pub struct MissingSegment {
     /// is no vertex at its start.
     pub reached: Option<DVec2>,
 }
-
-/// How many missing segments are listed.
-const LISTED: usize = 100;
 
 /// Checks that each segment, given by the indices of its end points, is a union
 /// of edges of the mesh. Segments without length are their point.
@@ -99,16 +97,51 @@ pub fn check_segments(mesh: &TriMesh, points: &[DVec2], segments: &[[u32; 2]]) -
         let ends = ends.map(|p| points[p as usize]);
         match walker.walk(ends) {
             Ok(()) => found.kept += 1,
-            Err(reached) if found.missing.len() < LISTED => {
-                found.missing.push(MissingSegment { segment, ends, reached });
-            }
-            Err(_) => {}
+            Err(reached) => found.missing.push(MissingSegment { segment, ends, reached }),
         }
     }
     found.edges = walker.edges;
     found.edges.sort_unstable();
     found.edges.dedup();
     found
+}
+
+/// For each point whether it lies in a triangle of the mesh, or on its rim.
+///
+/// # Complexity
+///
+/// `O((n + m) log n)` for `n` points and `m` triangles, and the points in the
+/// vertical strips that triangles span.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::segments::covered;
+/// use hexdel_geom::{DVec2, TriMesh, VertexId};
+///
+/// let mesh = TriMesh {
+///     vertices: vec![DVec2::ZERO, DVec2::X, DVec2::Y],
+///     triangles: vec![[0, 1, 2].map(VertexId::new)],
+/// };
+/// assert_eq!(covered(&mesh, &[DVec2::splat(0.5), DVec2::splat(0.6)]), [true, false]);
+/// ```
+pub fn covered(mesh: &TriMesh, points: &[DVec2]) -> Vec<bool> {
+    let mut covered = vec![false; points.len()];
+    if points.is_empty() {
+        return covered;
+    }
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&i, &j| points[i].x.total_cmp(&points[j].x));
+    for corners in &mesh.triangles {
+        let [Some(&a), Some(&b), Some(&c)] = corners.map(|v| mesh.vertices.get(v.index())) else { continue };
+        let (west, east) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let first = order.partition_point(|&i| points[i].x < west);
+        for &i in order[first..].iter().take_while(|&&i| points[i].x <= east) {
+            let p = points[i];
+            covered[i] |= [(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| orient2d(a, b, p) >= 0.0);
+        }
+    }
+    covered
 }
 
 struct Walker<'a> {
@@ -249,14 +282,15 @@ mod tests {
         );
         let points = [DVec2::ZERO, DVec2::ONE, DVec2::splat(2.0)];
         assert_eq!(check_segments(&bow, &points, &[[0, 1], [2, 1]]).kept, 2);
-        assert_eq!(check_segments(&bow, &points, &[[0, 2]]).kept, 0);
+        assert_eq!(check_segments(&bow, &points, &[[0, 2]]).missing.len(), 1);
     }
 
     #[test]
     fn broken_meshes_are_no_reason_to_panic() {
         let broken = mesh(&[(0.0, 0.0), (f64::NAN, 0.0)], &[[0, 1, 7], [0, 0, 1]]);
         let found = check_segments(&broken, &[DVec2::ZERO, DVec2::X], &[[0, 1], [1, 0]]);
-        assert_eq!((found.segments, found.kept), (2, 0));
+        assert_eq!((found.segments, found.kept, found.missing.len()), (2, 0, 2));
+        assert_eq!(covered(&broken, &[DVec2::ZERO, DVec2::splat(f64::NAN)]), [false, false]);
         assert_eq!(check_segments(&TriMesh::default(), &[], &[]).segments, 0);
     }
 }

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use hexdel_geom::PslgLayoutError;
+use hexdel_geom::{DVec2, PslgLayoutError};
 use thiserror::Error;
 
 /// Why a file was not read.
@@ -162,7 +162,78 @@ pub enum ReadError {
         /// How many can be held.
         limit: u64,
     },
-    /// The text is no RON, or not that of a mesh.
+    /// The file holds something valid that cannot be taken: other cells than
+    /// triangles, a binary encoding.
+    #[error("{}: {what} cannot be read", at(file, *line))]
+    Unsupported {
+        /// The file.
+        file: String,
+        /// The line; 0 if the format does not tell.
+        line: u64,
+        /// What it is.
+        what: String,
+    },
+    /// The format takes two files, but one stream was given.
+    #[error("{file}: the format {format} takes two files")]
+    TwoFiles {
+        /// The name of the stream.
+        file: String,
+        /// The format.
+        format: &'static str,
+    },
+    /// The format is written only.
+    #[error("{file}: the format {format} is written, not read")]
+    WriteOnly {
+        /// The file.
+        file: String,
+        /// The format.
+        format: &'static str,
+    },
+    /// An array has neither one entry per item nor none.
+    #[error("{}: {found} {array} instead of {expected}", at(file, *line))]
+    Length {
+        /// The file.
+        file: String,
+        /// The line; 0 if the format does not tell.
+        line: u64,
+        /// What the array holds.
+        array: &'static str,
+        /// The length that would fit.
+        expected: u64,
+        /// The length it has.
+        found: u64,
+    },
+    /// The arrays of a graph do not fit together.
+    #[error("{file}: {source}")]
+    Layout {
+        /// The file.
+        file: String,
+        /// Which do not.
+        source: PslgLayoutError,
+    },
+    /// The text is no JSON, or not that of what should be read.
+    #[error("{}: {message}", at_column(file, *line, *column))]
+    Json {
+        /// The file.
+        file: String,
+        /// The line; 0 if it is not known.
+        line: u64,
+        /// The column, counted from 1; 0 before the first character of a line.
+        column: u64,
+        /// What the parser says.
+        message: String,
+    },
+    /// The text is no XML, or not that of a grid.
+    #[error("{file}:{line}: {message}")]
+    Xml {
+        /// The file.
+        file: String,
+        /// The line that was reached.
+        line: u64,
+        /// What is wrong.
+        message: String,
+    },
+    /// The text is no RON, or not that of what should be read.
     #[error("{file}:{line}:{column}: {message}")]
     Ron {
         /// The file.
@@ -174,13 +245,28 @@ pub enum ReadError {
         /// What the parser says.
         message: String,
     },
+    /// A raster is not as its format wants it.
+    #[error("{file}:{line}: {message}")]
+    Raster {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// What is wrong.
+        message: String,
+    },
 }
 
 impl ReadError {
     /// The line at fault, counted from 1, if it is known.
     pub fn line(&self) -> Option<u64> {
         let line = match self {
-            Self::Missing { .. } | Self::Io { .. } | Self::UnknownExtension { .. } => 0,
+            Self::Missing { .. }
+            | Self::Io { .. }
+            | Self::UnknownExtension { .. }
+            | Self::TwoFiles { .. }
+            | Self::WriteOnly { .. }
+            | Self::Layout { .. } => 0,
             Self::NotUtf8 { line, .. }
             | Self::LineTooLong { line, .. }
             | Self::Malformed { line, .. }
@@ -192,7 +278,12 @@ impl ReadError {
             | Self::IndexOutOfRange { line, .. }
             | Self::PointsElsewhere { line, .. }
             | Self::TooMany { line, .. }
-            | Self::Ron { line, .. } => *line,
+            | Self::Unsupported { line, .. }
+            | Self::Length { line, .. }
+            | Self::Json { line, .. }
+            | Self::Xml { line, .. }
+            | Self::Ron { line, .. }
+            | Self::Raster { line, .. } => *line,
         };
         (line > 0).then_some(line)
     }
@@ -212,6 +303,14 @@ fn at(file: &str, line: u64) -> String {
     match line {
         0 => file.to_owned(),
         _ => format!("{file}:{line}"),
+    }
+}
+
+/// File and, if they are known, line and column.
+fn at_column(file: &str, line: u64, column: u64) -> String {
+    match line {
+        0 => file.to_owned(),
+        _ => format!("{file}:{line}:{column}"),
     }
 }
 
@@ -250,6 +349,28 @@ pub enum WriteError {
         file: String,
         /// The format.
         format: &'static str,
+    },
+    /// The format is read only.
+    #[error("{file}: the format {format} is read, not written")]
+    ReadOnly {
+        /// The file.
+        file: String,
+        /// The format.
+        format: &'static str,
+    },
+    /// The format has no way to write a number.
+    #[error("{file}: {item} {index} is {found}, which {format} cannot hold")]
+    Unrepresentable {
+        /// The file.
+        file: String,
+        /// The format.
+        format: &'static str,
+        /// "attribute" or "region".
+        item: &'static str,
+        /// Its position in the array.
+        index: usize,
+        /// The number.
+        found: f64,
     },
     /// The format does not hold segments, holes or regions.
     #[error("{file}: the format holds points only, not {item}")]
@@ -294,6 +415,34 @@ pub enum WriteError {
         file: String,
         /// Which do not.
         source: PslgLayoutError,
+    },
+    /// The bounds of a picture are no bounds of angles.
+    #[error("{file}: angles from {low} to {high} degrees are no bounds: expected 0 to 60 and 60 to 180")]
+    Bounds {
+        /// The file.
+        file: String,
+        /// The smaller bound, degrees.
+        low: f64,
+        /// The larger bound, degrees.
+        high: f64,
+    },
+    /// The box that a picture is to show is empty, not finite, or beside the mesh.
+    #[error("{file}: the box from ({}, {}) to ({}, {}) {fault}", min.x, min.y, max.x, max.y)]
+    Zoom {
+        /// The file.
+        file: String,
+        /// The smaller coordinates.
+        min: DVec2,
+        /// The larger coordinates.
+        max: DVec2,
+        /// What is wrong with it.
+        fault: &'static str,
+    },
+    /// A picture is to be coloured by regions, of which the mesh has none.
+    #[error("{file}: the mesh has no regions to colour triangles by")]
+    NoRegions {
+        /// The file.
+        file: String,
     },
     /// An array has neither one entry per item nor none.
     #[error("{file}: {found} {array} instead of {expected}")]

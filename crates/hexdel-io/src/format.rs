@@ -1,4 +1,4 @@
-//! Which format a file name stands for.
+//! Which format a file name or a format's own name stands for.
 
 use std::path::Path;
 
@@ -13,20 +13,89 @@ pub enum PointFormat {
     /// A text table of which x and y are two columns: `.csv`, `.tsv`, `.xyz`,
     /// `.txt`, `.pts`. The delimiter is found out from the text.
     Table,
+    /// `GeoJSON` (RFC 7946), `.geojson`. Read only.
+    GeoJson,
+    /// Well-known text, `.wkt`. Read only.
+    Wkt,
+    /// JSON of a [`Pslg`](hexdel_geom::Pslg), `.json`. What is read under this name
+    /// may be `GeoJSON` or an instance of CG:SHOP as well.
+    Json,
+    /// An instance of the CG:SHOP 2025 challenge, JSON as well. Read only.
+    CgShop,
+    /// Rusty Object Notation of a [`Pslg`](hexdel_geom::Pslg), `.ron`.
+    Ron,
 }
 
+/// Names of formats, with what they name.
+type Names<F> = &'static [(&'static str, F)];
+
+/// The first name of each format is the one it is known by.
+const POINT_NAMES: Names<PointFormat> = &[
+    ("node", PointFormat::Node),
+    ("poly", PointFormat::Poly),
+    ("csv", PointFormat::Table),
+    ("tsv", PointFormat::Table),
+    ("xyz", PointFormat::Table),
+    ("txt", PointFormat::Table),
+    ("pts", PointFormat::Table),
+    ("geojson", PointFormat::GeoJson),
+    ("wkt", PointFormat::Wkt),
+    ("json", PointFormat::Json),
+    ("cgshop", PointFormat::CgShop),
+    ("ron", PointFormat::Ron),
+];
+
+const MESH_NAMES: Names<MeshFormat> = &[
+    ("ele", MeshFormat::NodeEle),
+    ("node", MeshFormat::NodeEle),
+    ("edge", MeshFormat::Edge),
+    ("neigh", MeshFormat::Neigh),
+    ("poly", MeshFormat::Poly),
+    ("vtu", MeshFormat::Vtu),
+    ("msh", MeshFormat::Msh41),
+    ("msh4", MeshFormat::Msh41),
+    ("msh2", MeshFormat::Msh22),
+    ("obj", MeshFormat::Obj),
+    ("off", MeshFormat::Off),
+    ("mesh", MeshFormat::Medit),
+    ("medit", MeshFormat::Medit),
+    ("json", MeshFormat::Json),
+    ("ron", MeshFormat::Ron),
+    ("svg", MeshFormat::Svg),
+    #[cfg(feature = "png")]
+    ("png", MeshFormat::Png),
+];
+
 impl PointFormat {
-    /// The extensions of all point formats, for messages.
-    pub const EXTENSIONS: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts";
+    /// The extensions that points are written to, for messages.
+    pub const EXTENSIONS: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron";
+
+    /// The extensions that points are read from, for messages.
+    pub const READABLE: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .wkt, .json, .ron";
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
-        Some(match extension(path)?.as_str() {
-            "node" => Self::Node,
-            "poly" => Self::Poly,
-            "csv" | "tsv" | "xyz" | "txt" | "pts" => Self::Table,
-            _ => return None,
-        })
+        Self::from_name(&extension(path)?)
+    }
+
+    /// The format of that name, an extension without its point or `cgshop`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        lookup(POINT_NAMES, name)
+    }
+
+    /// All names of formats.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        POINT_NAMES.iter().map(|(name, _)| *name)
+    }
+
+    /// The format's name.
+    pub fn name(self) -> &'static str {
+        name_of(POINT_NAMES, self)
+    }
+
+    /// Whether the format can be written.
+    pub fn is_written(self) -> bool {
+        !matches!(self, Self::GeoJson | Self::Wkt | Self::CgShop)
     }
 }
 
@@ -36,30 +105,84 @@ impl PointFormat {
 pub enum MeshFormat {
     /// Triangle's pair of `.node` and `.ele`; either name stands for both.
     NodeEle,
-    /// VTK's XML format of unstructured grids, `.vtu`. Written only.
+    /// Triangle's `.edge`: all edges, with boundary markers. Written only.
+    Edge,
+    /// Triangle's `.neigh`: the neighbours of each triangle. Written only.
+    Neigh,
+    /// Triangle's `.poly` of the vertices and the marked edges. Written only, as
+    /// what is read from it is a graph.
+    Poly,
+    /// VTK's XML format of unstructured grids, `.vtu`.
     Vtu,
+    /// Gmsh's `.msh`, version 4.1, in text. Reading takes version 2 as well.
+    Msh41,
+    /// Gmsh's `.msh`, version 2.2, in text. Reading takes version 4.1 as well.
+    Msh22,
+    /// Wavefront's `.obj`.
+    Obj,
+    /// The Object File Format of Geomview, `.off`.
+    Off,
+    /// Medit's `.mesh`, in text.
+    Medit,
+    /// JSON of a [`TriMesh`](hexdel_geom::TriMesh), `.json`.
+    Json,
     /// Rusty Object Notation of a [`TriMesh`](hexdel_geom::TriMesh), `.ron`.
     Ron,
     /// A picture, `.svg`. Written only.
     Svg,
+    /// A picture, `.png`. Written only, with the feature `png`.
+    #[cfg(feature = "png")]
+    Png,
 }
 
 impl MeshFormat {
     /// The extensions that meshes are written to, for messages.
-    pub const EXTENSIONS: &str = ".node, .ele, .vtu, .ron, .svg";
+    pub const EXTENSIONS: &str = if cfg!(feature = "png") {
+        ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg, .png"
+    } else {
+        ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg"
+    };
+
+    /// The extensions of pictures, for messages.
+    pub const PICTURES: &str = if cfg!(feature = "png") { ".svg, .png" } else { ".svg" };
 
     /// The extensions that meshes are read from, for messages.
-    pub const READABLE: &str = ".node, .ele, .ron";
+    pub const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .json, .ron";
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
-        Some(match extension(path)?.as_str() {
-            "node" | "ele" => Self::NodeEle,
-            "vtu" => Self::Vtu,
-            "ron" => Self::Ron,
-            "svg" => Self::Svg,
-            _ => return None,
-        })
+        Self::from_name(&extension(path)?)
+    }
+
+    /// The format of that name: an extension without its point, `msh4` and `msh2`
+    /// for the two versions of `.msh` (`msh` is 4.1), or `medit`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        lookup(MESH_NAMES, name)
+    }
+
+    /// All names of formats.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        MESH_NAMES.iter().map(|(name, _)| *name)
+    }
+
+    /// The format's name.
+    pub fn name(self) -> &'static str {
+        name_of(MESH_NAMES, self)
+    }
+
+    /// Whether the format can be read.
+    pub fn is_read(self) -> bool {
+        !matches!(self, Self::Edge | Self::Neigh | Self::Poly) && !self.is_picture()
+    }
+
+    /// Whether it is a picture.
+    pub fn is_picture(self) -> bool {
+        match self {
+            Self::Svg => true,
+            #[cfg(feature = "png")]
+            Self::Png => true,
+            _ => false,
+        }
     }
 }
 
@@ -79,14 +202,58 @@ impl DualFormat {
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
-        match extension(path)?.as_str() {
+        match extension(path)?.to_ascii_lowercase().as_str() {
             "vtu" => Some(Self::Vtu),
-            "node" | "edge" if extension(Path::new(path.file_stem()?))? == "v" => Some(Self::Voronoi),
+            "node" | "edge" if extension(Path::new(path.file_stem()?))?.eq_ignore_ascii_case("v") => {
+                Some(Self::Voronoi)
+            }
             _ => None,
         }
     }
 }
 
+fn lookup<F: Copy>(names: Names<F>, name: &str) -> Option<F> {
+    names.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, format)| *format)
+}
+
+fn name_of<F: Copy + PartialEq>(names: Names<F>, format: F) -> &'static str {
+    names.iter().find(|(_, f)| *f == format).expect("every format has a name").0
+}
+
 fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_stand_for_formats() {
+        for name in PointFormat::names() {
+            let format = PointFormat::from_name(name).unwrap();
+            assert_eq!(PointFormat::from_name(format.name()), Some(format));
+        }
+        for name in MeshFormat::names() {
+            let format = MeshFormat::from_name(name).unwrap();
+            assert_eq!(MeshFormat::from_name(format.name()), Some(format));
+        }
+        assert_eq!(MeshFormat::from_path(Path::new("a.b/c.MSH")), Some(MeshFormat::Msh41));
+        assert_eq!(PointFormat::from_path(Path::new("geojson")), None);
+    }
+
+    #[test]
+    fn lists_of_extensions_are_complete() {
+        let of = |name: &str| format!(".{name}");
+        for name in PointFormat::names().filter(|n| *n != "cgshop") {
+            let written = PointFormat::from_name(name).unwrap().is_written();
+            assert_eq!(PointFormat::EXTENSIONS.split(", ").any(|e| e == of(name)), written, "{name}");
+            assert!(PointFormat::READABLE.split(", ").any(|e| e == of(name)), "{name}");
+        }
+        for name in MeshFormat::names().filter(|n| !["msh2", "msh4", "medit"].contains(n)) {
+            let read = MeshFormat::from_name(name).unwrap().is_read();
+            assert_eq!(MeshFormat::READABLE.split(", ").any(|e| e == of(name)), read, "{name}");
+            assert!(MeshFormat::EXTENSIONS.split(", ").any(|e| e == of(name)), "{name}");
+        }
+    }
 }

@@ -4,16 +4,34 @@
 //! planar straight-line graphs and triangle meshes, and nothing of how meshes are
 //! made.
 //!
-//! | extension | format | read | written |
+//! | points and graphs | | read | written |
 //! |---|---|---|---|
-//! | `.node` | Triangle's points | [`read_points`] | [`write_points`] |
-//! | `.poly` | Triangle's planar straight-line graph | [`read_points`] | [`write_points`] |
-//! | `.csv` `.tsv` `.xyz` `.txt` `.pts` | text tables | [`read_points`] | [`write_points`] |
-//! | `.node` + `.ele` | Triangle's meshes | [`read_mesh`] | [`write_mesh`] |
-//! | `.ron` | [`TriMesh`](hexdel_geom::TriMesh) in Rusty Object Notation | [`read_mesh`] | [`write_mesh`] |
-//! | `.vtu` | VTK's unstructured grids | | [`write_mesh`] |
-//! | `.svg` | pictures | | [`write_mesh`] |
-//! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh | | [`write_dual`] |
+//! | `.node` | Triangle's points | yes | yes |
+//! | `.poly` | Triangle's planar straight-line graph | yes | yes |
+//! | `.csv` `.tsv` `.xyz` `.txt` `.pts` | text tables | yes | yes |
+//! | `.geojson` | `GeoJSON` | yes | |
+//! | `.wkt` | well-known text | yes | |
+//! | `.json` | a [`Pslg`](hexdel_geom::Pslg); instances of CG:SHOP 2025 | yes | the former |
+//! | `.ron` | a [`Pslg`](hexdel_geom::Pslg) in Rusty Object Notation | yes | yes |
+//!
+//! | meshes | | read | written |
+//! |---|---|---|---|
+//! | `.node` + `.ele` | Triangle's meshes | yes | yes |
+//! | `.edge` `.neigh` `.poly` | Triangle's edges, neighbours, segments | | yes |
+//! | `.vtu` | VTK's unstructured grids | yes | yes |
+//! | `.msh` | Gmsh, versions 4.1 and 2.2 in text | yes | yes |
+//! | `.obj` | Wavefront | yes | yes |
+//! | `.off` | Geomview | yes | yes |
+//! | `.mesh` | Medit in text | yes | yes |
+//! | `.json` `.ron` | a [`TriMesh`](hexdel_geom::TriMesh) and its data | yes | yes |
+//! | `.svg` `.png` | pictures, [`Picture`] | | yes |
+//! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh, by [`write_dual`] | | yes |
+//!
+//! Points go through [`read_points`] and [`write_points`], meshes through
+//! [`read_mesh_data`] and [`write_mesh`], streams through [`read_points_from`],
+//! [`write_points_to`], [`read_mesh_from`] and [`write_mesh_to`] with the format named.
+//!
+//! [`read_raster`] reads rasters (`.asc`), [`read_sizes`] tables of points with sizes.
 //!
 //! Readers trust nothing: every malformed file is a [`ReadError`] with file and
 //! line, and memory grows with what a file holds, not with what it claims. Lines
@@ -23,28 +41,65 @@
 //! Not here: whether segments cross, points coincide or triangles are any good.
 
 mod angles;
+mod asc;
 mod atomic;
+mod canvas;
+mod colour;
+mod data;
 mod dual;
 mod error;
 mod format;
+mod frame;
+mod geojson;
+#[cfg(feature = "png")]
+mod glyphs;
+mod graph_json;
+mod graph_ron;
+mod histogram;
+mod interior;
+mod json;
 mod legend;
 mod lines;
+mod medit;
+mod mesh_json;
 mod mesh_ron;
+mod msh;
+mod msh_out;
+mod obj;
+mod off;
 mod picture;
+#[cfg(feature = "png")]
+mod png;
 mod read;
+mod scene;
+mod shapes;
+mod sizes;
+mod survey;
 mod svg;
 mod table;
+mod tags;
 mod text;
+mod tokens;
+mod topology;
 mod triangle;
 mod triangle_out;
 mod view;
 mod vtu;
+mod vtu_array;
+mod vtu_in;
+mod wkt;
 mod write;
 
+pub use asc::{Raster, parse_raster, read_raster};
+pub use colour::Rgb;
+pub use data::MeshData;
 pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
-pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
-pub use read::{read_mesh, read_mesh_from, read_points, read_points_from};
+pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
+pub use read::{
+    holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from,
+};
+pub use sizes::{parse_sizes, read_sizes};
 pub use view::{MarkedEdge, MeshView};
-pub use write::{write_mesh, write_mesh_to, write_points};
+pub use write::{write_mesh, write_mesh_to, write_points, write_points_to};

@@ -17,6 +17,9 @@ pub(crate) const MAX_LINE: usize = 1 << 20;
 /// The longest quotation from a file in an error, in characters.
 const MAX_QUOTE: usize = 40;
 
+/// The longest message of a parser in an error, in characters.
+const MAX_MESSAGE: usize = 240;
+
 /// Where a `#` begins a comment.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Comments {
@@ -24,6 +27,8 @@ pub(crate) enum Comments {
     Anywhere,
     /// As the first character that is no space: tables have text columns.
     WholeLine,
+    /// Nowhere: the format has names in which a `#` may stand.
+    Nowhere,
 }
 
 /// Reads the lines of a file that hold more than comments.
@@ -53,8 +58,9 @@ impl<R: BufRead> Lines<R> {
     /// The next line with something on it, trimmed, without comment.
     pub(crate) fn next_row(&mut self) -> Result<Option<Row<'_>>, ReadError> {
         while self.fill()? {
-            let start = self.buffer.trim_ascii_start().len();
-            if start > 0 && !self.buffer.trim_ascii_start().starts_with(b"#") {
+            let text = self.buffer.trim_ascii_start();
+            let is_comment = self.comments != Comments::Nowhere && text.starts_with(b"#");
+            if !text.is_empty() && !is_comment {
                 return self.row().map(Some);
             }
             // A comment must be text as well: a binary file is not to be taken
@@ -168,6 +174,11 @@ impl<'a> Fields<'a> {
         self.rest.next()
     }
 
+    /// The next field, which stays to be read.
+    pub(crate) fn peek(&self) -> Option<&'a str> {
+        self.rest.clone().next()
+    }
+
     /// The next field as an integer.
     pub(crate) fn integer<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, ReadError> {
         let field = self.text();
@@ -181,7 +192,7 @@ impl<'a> Fields<'a> {
         default: T,
         expected: &'static str,
     ) -> Result<T, ReadError> {
-        if self.rest.clone().next().is_none() {
+        if self.peek().is_none() {
             return Ok(default);
         }
         self.integer(expected)
@@ -191,6 +202,16 @@ impl<'a> Fields<'a> {
     pub(crate) fn number(&mut self, expected: &'static str) -> Result<f64, ReadError> {
         let field = self.text();
         self.row.number(field, expected)
+    }
+
+    /// The next three fields as a position in the plane z = 0.
+    pub(crate) fn flat_position(&mut self, item: &'static str, index: u64) -> Result<DVec2, ReadError> {
+        let position = self.position(item, index)?;
+        let z = self.text();
+        match z.and_then(|text| text.parse::<f64>().ok()) {
+            Some(0.0) => Ok(position),
+            _ => Err(self.row.malformed("the z coordinate 0 of a plane mesh", z)),
+        }
     }
 
     /// The next two fields as a position.
@@ -213,9 +234,20 @@ pub(crate) fn quote(text: &str) -> String {
     format!("\"{}\"", clip(text))
 }
 
-fn clip(text: &str) -> String {
+/// `text` cut to a readable length.
+pub(crate) fn clip(text: &str) -> String {
     match text.char_indices().nth(MAX_QUOTE) {
         Some((end, _)) => format!("{}..", &text[..end]),
         None => text.to_owned(),
     }
+}
+
+/// A parser's message, which may quote the file at any length: cut likewise, on one
+/// line.
+pub(crate) fn clip_message(mut message: String) -> String {
+    if let Some((end, _)) = message.char_indices().nth(MAX_MESSAGE) {
+        message.truncate(end);
+        message.push_str("..");
+    }
+    message.replace(char::is_control, " ")
 }

@@ -1,6 +1,7 @@
 //! Meshes in Rusty Object Notation (`.ron`).
 //!
-//! The text is that of a [`TriMesh`] with further fields beside its own:
+//! The text is that of a [`TriMesh`](hexdel_geom::TriMesh) with further fields beside
+//! its own:
 //!
 //! ```text
 //! (
@@ -9,22 +10,28 @@
 //!     input_indices: Some([Some(0), None, ..]),  if known
 //!     vertex_markers: Some([..]),                likewise
 //!     regions: Some([..]),                       likewise
+//!     marked_edges: Some([(ends: (0, 1), marker: 1), ..]),
 //!     certificate: Some(..),                     if there is one
 //! )
 //! ```
 //!
-//! so that `ron::from_str::<TriMesh>` reads it as well.
+//! so that `ron::from_str::<TriMesh>` reads it as well. The text is parsed as a whole,
+//! which takes memory for it beside the mesh.
 
-use std::io::{self, BufRead, BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 
-use hexdel_geom::{DVec2, TriMesh, VertexId};
+use hexdel_geom::{DVec2, VertexId};
 use ron::Options;
 use ron::error::SpannedError;
 use ron::ser::PrettyConfig;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
+use crate::data::{MeshData, MeshDocument};
 use crate::error::ReadError;
-use crate::view::MeshView;
+use crate::json::Source;
+use crate::lines::clip_message;
+use crate::view::{MarkedEdge, MeshView};
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -37,39 +44,49 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     regions: Option<&'a [f64]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    marked_edges: Option<&'a [MarkedEdge]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     certificate: Option<&'a dyn erased_serde::Serialize>,
 }
 
 /// Writes a mesh.
 pub(crate) fn write_ron(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
-    let document = Document {
-        vertices: &view.mesh.vertices,
-        triangles: &view.mesh.triangles,
-        input_indices: view.input_indices,
-        vertex_markers: view.vertex_markers,
-        regions: view.regions,
-        certificate: view.certificate,
-    };
-    // One item of an array per line, the same line ends on every platform.
+    to_ron(
+        out,
+        &Document {
+            vertices: &view.mesh.vertices,
+            triangles: &view.mesh.triangles,
+            input_indices: view.input_indices,
+            vertex_markers: view.vertex_markers,
+            regions: view.regions,
+            marked_edges: view.marked_edges,
+            certificate: view.certificate,
+        },
+    )
+}
+
+/// Writes anything, one item of its arrays per line.
+pub(crate) fn to_ron(out: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
+    // The same line ends on every platform.
     let layout = PrettyConfig::new().depth_limit(2).new_line("\n");
     let mut out = BufWriter::with_capacity(1 << 16, out);
-    Options::default().to_io_writer_pretty(&mut out, &document, layout).map_err(io::Error::other)?;
+    Options::default().to_io_writer_pretty(&mut out, document, layout).map_err(io::Error::other)?;
     out.write_all(b"\n")?;
     out.flush()
 }
 
-/// Reads a mesh; fields beside those of the mesh are left.
-pub(crate) fn read_ron(mut reader: impl BufRead, file: &str) -> Result<TriMesh, ReadError> {
-    let mut bytes = Vec::new();
-    reader.read_to_end(&mut bytes).map_err(|source| ReadError::Io { file: file.to_owned(), source })?;
-    let text = std::str::from_utf8(&bytes).map_err(|e| ReadError::NotUtf8 {
-        file: file.to_owned(),
-        line: bytes[..e.valid_up_to()].split(|&b| b == b'\n').count() as u64,
+/// Reads a mesh; fields beside those above are left.
+pub(crate) fn read_ron(source: &Source<'_>) -> Result<MeshData, ReadError> {
+    parse_ron::<MeshDocument>(source)?.data(source.file)
+}
+
+/// Parses a text.
+pub(crate) fn parse_ron<T: DeserializeOwned>(source: &Source<'_>) -> Result<T, ReadError> {
+    let text = std::str::from_utf8(source.bytes).map_err(|e| ReadError::NotUtf8 {
+        file: source.file.to_owned(),
+        line: source.bytes[..e.valid_up_to()].split(|&b| b == b'\n').count() as u64,
     })?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mesh = ron::from_str(text).map_err(|e| malformed(&e, file))?;
-    check(&mesh, file)?;
-    Ok(mesh)
+    ron::from_str(text).map_err(|e| malformed(&e, source.file))
 }
 
 fn malformed(error: &SpannedError, file: &str) -> ReadError {
@@ -77,31 +94,6 @@ fn malformed(error: &SpannedError, file: &str) -> ReadError {
         file: file.to_owned(),
         line: error.span.start.line as u64,
         column: error.span.start.col as u64,
-        message: error.code.to_string(),
-    }
-}
-
-fn check(mesh: &TriMesh, file: &str) -> Result<(), ReadError> {
-    let points = mesh.vertices.len();
-    if let Some(index) = mesh.vertices.iter().position(|p| !p.is_finite()) {
-        let p = mesh.vertices[index];
-        let coordinate = if p.x.is_finite() { p.y } else { p.x };
-        return Err(ReadError::NonFinite {
-            file: file.to_owned(),
-            line: 0,
-            item: "point",
-            index: index as u64,
-            found: coordinate.to_string(),
-        });
-    }
-    match mesh.triangles.iter().flatten().find(|v| v.index() >= points) {
-        None => Ok(()),
-        Some(bad) => Err(ReadError::IndexOutOfRange {
-            file: file.to_owned(),
-            line: 0,
-            index: bad.index() as i64,
-            first: 0,
-            points: points as u64,
-        }),
+        message: clip_message(error.code.to_string()),
     }
 }

@@ -5,11 +5,17 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use hexdel_geom::{Pslg, TriMesh};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
+use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::format::{MeshFormat, PointFormat};
+use crate::json::{Source, parse, slurp};
 use crate::triangle::PointRange;
-use crate::{mesh_ron, table, triangle};
+use crate::{
+    geojson, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh, obj, off, table, triangle, vtu_in, wkt,
+};
 
 /// Reads points, and segments, holes and regions if the format has them.
 ///
@@ -21,13 +27,13 @@ use crate::{mesh_ron, table, triangle};
 ///
 /// # Complexity
 ///
-/// Linear in the size of the file; memory in proportion to what was read, never
-/// to what a header claims.
+/// Linear in the size of the file, `n log n` for polygons; memory in proportion to
+/// what was read, never to what a header claims.
 pub fn read_points(path: impl AsRef<Path>) -> Result<Pslg, ReadError> {
     let path = path.as_ref();
     let name = path.display().to_string();
     let Some(format) = PointFormat::from_path(path) else {
-        return Err(ReadError::UnknownExtension { file: name, known: PointFormat::EXTENSIONS });
+        return Err(ReadError::UnknownExtension { file: name, known: PointFormat::READABLE });
     };
     let reader = open(path)?;
     if format == PointFormat::Poly {
@@ -51,6 +57,10 @@ pub fn read_points(path: impl AsRef<Path>) -> Result<Pslg, ReadError> {
 /// let pslg = read_points_from("x,y\n0.5,1\n".as_bytes(), PointFormat::Table, "inline")?;
 /// assert_eq!(pslg.points[0].x, 0.5);
 ///
+/// let text = "POLYGON ((0 0, 4 0, 0 4, 0 0), (1 1, 2 1, 1 2, 1 1))";
+/// let pslg = read_points_from(text.as_bytes(), PointFormat::Wkt, "inline")?;
+/// assert_eq!((pslg.segments.len(), pslg.holes.len(), pslg.regions.len()), (6, 1, 1));
+///
 /// let error = read_points_from("1 2\n0 0.5 NaN\n".as_bytes(), PointFormat::Node, "a.node");
 /// assert_eq!(
 ///     error.unwrap_err().to_string(),
@@ -59,20 +69,37 @@ pub fn read_points(path: impl AsRef<Path>) -> Result<Pslg, ReadError> {
 /// # Ok::<(), hexdel_io::ReadError>(())
 /// ```
 pub fn read_points_from(reader: impl BufRead, format: PointFormat, name: &str) -> Result<Pslg, ReadError> {
+    let read_all = |read: fn(&Source<'_>) -> Result<Pslg, ReadError>, reader| {
+        read(&Source { bytes: &slurp(reader, name)?, file: name })
+    };
     match format {
         PointFormat::Node => triangle::read_node(reader, name).map(|(pslg, _)| pslg),
         PointFormat::Poly => triangle::read_poly(reader, name, |line| {
             Err(ReadError::PointsElsewhere { file: name.to_owned(), line })
         }),
         PointFormat::Table => table::read_table(reader, name),
+        PointFormat::Wkt => wkt::read_wkt(reader, name),
+        PointFormat::GeoJson => read_all(geojson::read_geojson, reader),
+        PointFormat::Json => read_all(graph_json::read_any_json, reader),
+        PointFormat::CgShop => read_all(graph_json::read_cgshop, reader),
+        PointFormat::Ron => read_all(graph_ron::read_graph_ron, reader),
     }
 }
 
-/// Reads a mesh, from `.ron` or a pair of `.node` and `.ele`, either of which may
-/// be named.
+/// Reads a mesh without what else its file knows, see [`read_mesh_data`].
 ///
-/// Attributes and markers are left. Nothing is promised about the triangles but
-/// that their corners exist: whoever needs more computes a certificate.
+/// # Errors
+///
+/// As [`read_mesh_data`].
+pub fn read_mesh(path: impl AsRef<Path>) -> Result<TriMesh, ReadError> {
+    read_mesh_data(path).map(|data| data.mesh)
+}
+
+/// Reads a mesh with its markers and regions, in the format that the extension stands
+/// for. A `.node` or `.ele` path stands for the pair of both.
+///
+/// Nothing is promised about the triangles but that their corners exist: whoever needs
+/// more computes a certificate.
 ///
 /// # Errors
 ///
@@ -81,8 +108,9 @@ pub fn read_points_from(reader: impl BufRead, format: PointFormat, name: &str) -
 /// # Complexity
 ///
 /// As [`read_points`].
-pub fn read_mesh(path: impl AsRef<Path>) -> Result<TriMesh, ReadError> {
+pub fn read_mesh_data(path: impl AsRef<Path>) -> Result<MeshData, ReadError> {
     let path = path.as_ref();
+    let name = path.display().to_string();
     match MeshFormat::from_path(path) {
         Some(MeshFormat::NodeEle) => {
             let (points, range) = read_nodes(&beside(path, "node"))?;
@@ -90,11 +118,67 @@ pub fn read_mesh(path: impl AsRef<Path>) -> Result<TriMesh, ReadError> {
             let reader = open(&elements)?;
             triangle::read_ele(reader, &elements.display().to_string(), points, range)
         }
-        Some(MeshFormat::Ron) => mesh_ron::read_ron(open(path)?, &path.display().to_string()),
-        _ => {
-            Err(ReadError::UnknownExtension { file: path.display().to_string(), known: MeshFormat::READABLE })
-        }
+        Some(format) if format.is_read() => read_mesh_from(open(path)?, format, &name),
+        Some(format) => Err(ReadError::WriteOnly { file: name, format: format.name() }),
+        None => Err(ReadError::UnknownExtension { file: name, known: MeshFormat::READABLE }),
     }
+}
+
+/// Reads a mesh from anything that can be read, `name` being what errors call it.
+///
+/// # Errors
+///
+/// As [`read_mesh_data`], and [`ReadError::TwoFiles`] for [`MeshFormat::NodeEle`], see
+/// [`read_mesh_pair`].
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_io::{MeshFormat, read_mesh_from};
+///
+/// let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+/// let data = read_mesh_from(text.as_bytes(), MeshFormat::Obj, "a.obj")?;
+/// assert_eq!(data.mesh.triangles[0].map(|v| v.index()), [0, 1, 2]);
+/// # Ok::<(), hexdel_io::ReadError>(())
+/// ```
+pub fn read_mesh_from(reader: impl BufRead, format: MeshFormat, name: &str) -> Result<MeshData, ReadError> {
+    match format {
+        MeshFormat::Vtu => vtu_in::read_vtu(reader, name),
+        MeshFormat::Msh41 | MeshFormat::Msh22 => msh::read_msh(reader, name),
+        MeshFormat::Obj => obj::read_obj(reader, name),
+        MeshFormat::Off => off::read_off(reader, name),
+        MeshFormat::Medit => medit::read_medit(reader, name),
+        MeshFormat::Json => mesh_json::read_json(reader, name),
+        MeshFormat::Ron => mesh_ron::read_ron(&Source { bytes: &slurp(reader, name)?, file: name }),
+        MeshFormat::NodeEle => Err(ReadError::TwoFiles { file: name.to_owned(), format: ".node/.ele" }),
+        _ => Err(ReadError::WriteOnly { file: name.to_owned(), format: format.name() }),
+    }
+}
+
+/// Whether a text of JSON or RON is that of a mesh, with `triangles`, rather than of a
+/// graph. What it is like otherwise is left to the readers.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_io::{MeshFormat, holds_mesh};
+///
+/// assert!(holds_mesh(br#"{"triangles": [], "vertices": []}"#, MeshFormat::Json));
+/// assert!(!holds_mesh(br#"{"points": [[0, 0]]}"#, MeshFormat::Json));
+/// ```
+pub fn holds_mesh(text: &[u8], format: MeshFormat) -> bool {
+    let source = Source { bytes: text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text), file: "" };
+    match format {
+        MeshFormat::Ron => mesh_ron::parse_ron::<MeshProbe>(&source).is_ok(),
+        _ => parse::<MeshProbe>(&source).is_ok(),
+    }
+}
+
+/// The member that must be there.
+#[derive(Deserialize)]
+struct MeshProbe {
+    #[serde(rename = "triangles")]
+    _triangles: IgnoredAny,
 }
 
 /// Reads a mesh from the two texts of a `.node` and an `.ele` file, each with
@@ -102,21 +186,21 @@ pub fn read_mesh(path: impl AsRef<Path>) -> Result<TriMesh, ReadError> {
 ///
 /// # Errors
 ///
-/// As [`read_mesh`].
+/// As [`read_mesh_data`].
 ///
 /// # Examples
 ///
 /// ```
 /// let nodes = "3 2\n1 0 0\n2 1 0\n3 0 1\n".as_bytes();
 /// let elements = "1\n1 1 2 3\n".as_bytes();
-/// let mesh = hexdel_io::read_mesh_from((nodes, "a.node"), (elements, "a.ele"))?;
-/// assert_eq!(mesh.triangles[0].map(|v| v.index()), [0, 1, 2]);
+/// let data = hexdel_io::read_mesh_pair((nodes, "a.node"), (elements, "a.ele"))?;
+/// assert_eq!(data.mesh.triangles[0].map(|v| v.index()), [0, 1, 2]);
 /// # Ok::<(), hexdel_io::ReadError>(())
 /// ```
-pub fn read_mesh_from(
+pub fn read_mesh_pair(
     nodes: (impl BufRead, &str),
     elements: (impl BufRead, &str),
-) -> Result<TriMesh, ReadError> {
+) -> Result<MeshData, ReadError> {
     let (points, range) = triangle::read_node(nodes.0, nodes.1)?;
     triangle::read_ele(elements.0, elements.1, points, range)
 }

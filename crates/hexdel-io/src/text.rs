@@ -35,6 +35,25 @@ impl<'w> TextWriter<'w> {
         self.text(digits.format(number))
     }
 
+    /// A position as a JSON array.
+    pub(crate) fn position(&mut self, p: hexdel_geom::DVec2) -> &mut Self {
+        self.text("[").number(p.x).text(", ").number(p.y).text("]")
+    }
+
+    /// The items of a JSON array, each on a line of its own.
+    pub(crate) fn rows<T>(
+        &mut self,
+        items: impl IntoIterator<Item = T>,
+        mut write: impl FnMut(&mut Self, T),
+    ) -> io::Result<()> {
+        for (i, item) in items.into_iter().enumerate() {
+            self.text(if i == 0 { "\n" } else { ",\n" });
+            write(self, item);
+            self.breathe()?;
+        }
+        Ok(())
+    }
+
     /// A number of pixels, to a hundredth.
     pub(crate) fn pixels(&mut self, pixels: f64) -> &mut Self {
         self.hundredths((pixels * 100.0).round() as i64)

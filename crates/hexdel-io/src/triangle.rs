@@ -25,6 +25,7 @@ use std::io::BufRead;
 
 use hexdel_geom::{Pslg, Region, TriMesh, VertexId};
 
+use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Comments, Fields, Lines, quote};
 
@@ -70,16 +71,19 @@ pub(crate) fn read_poly(
     Ok(pslg)
 }
 
-/// Reads the triangles of an `.ele` file to the points of its `.node` file.
-/// Attributes of triangles are checked to be numbers and left.
+/// Reads the triangles of an `.ele` file to the points of its `.node` file. The first
+/// attribute of a triangle is that of its region, others are left; what the points
+/// carry is taken over, see [`input_indices`].
 pub(crate) fn read_ele(
     reader: impl BufRead,
     file: &str,
     points: Pslg,
     range: PointRange,
-) -> Result<TriMesh, ReadError> {
+) -> Result<MeshData, ReadError> {
     let mut lines = Lines::new(reader, file, Comments::Anywhere);
+    let input_indices = input_indices(&points);
     let mut mesh = TriMesh { vertices: points.points, triangles: Vec::new() };
+    let mut regions = Vec::new();
     let (section, mut header) = Section::begin(&mut lines, "triangles", MAX_ITEMS)?;
     let corners = header.integer_or(3u64, "3 corners per triangle")?;
     if corners != 3 {
@@ -92,10 +96,34 @@ pub(crate) fn read_ele(
     section.rows(&mut lines, |fields, _| {
         let mut corner = || range.index(fields).map(|v| VertexId::new(v as usize));
         mesh.triangles.push([corner()?, corner()?, corner()?]);
-        (0..attributes).try_for_each(|_| fields.number("an attribute").map(drop))
+        for i in 0..attributes {
+            let attribute = fields.number("an attribute")?;
+            if i == 0 {
+                regions.push(attribute);
+            }
+        }
+        Ok(())
     })?;
     end_of_file(&mut lines, "triangles")?;
-    Ok(mesh)
+    let vertex_markers = (!points.point_markers.is_empty()).then_some(points.point_markers);
+    let regions = (attributes > 0).then_some(regions);
+    Ok(MeshData { input_indices, vertex_markers, regions, ..MeshData::new(mesh) })
+}
+
+/// The only attribute of vertices, if it can be what is written here: the index of
+/// the input point, no two the same, or -1.
+fn input_indices(points: &Pslg) -> Option<Vec<Option<u32>>> {
+    if points.attributes_per_point != 1 {
+        return None;
+    }
+    let index = |&number: &f64| match number {
+        -1.0 => Some(None),
+        _ => (f64::from(number as u32) == number).then_some(Some(number as u32)),
+    };
+    let indices: Vec<Option<u32>> = points.point_attributes.iter().map(index).collect::<Option<_>>()?;
+    let mut distinct: Vec<u32> = indices.iter().copied().flatten().collect();
+    distinct.sort_unstable();
+    distinct.windows(2).all(|w| w[0] < w[1]).then_some(indices)
 }
 
 fn point_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<PointRange, ReadError> {

@@ -1,4 +1,4 @@
-//! Shewchuk's Triangle formats: writing `.node`, `.ele` and `.poly`.
+//! Shewchuk's Triangle formats: writing `.node`, `.ele`, `.edge`, `.neigh` and `.poly`.
 //!
 //! Everything is numbered from 0. Meshes whose vertices know their input point
 //! carry its index as the one attribute, -1 for Steiner points; triangles carry the
@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use hexdel_geom::{DVec2, Pslg};
 
 use crate::text::TextWriter;
+use crate::topology::Edges;
 use crate::view::MeshView;
 
 /// Writes the vertices of a mesh.
@@ -45,6 +46,69 @@ pub(crate) fn write_ele(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
         text.text("\n").breathe()?;
     }
     text.finish()
+}
+
+/// Writes all edges of a mesh, with the markers of those that have one; of others it
+/// is 1 on the boundary and 0 inside.
+pub(crate) fn write_edge(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
+    let mut text = TextWriter::new(out);
+    let edges = Edges::new(view.mesh);
+    let mut marked: Vec<([u32; 2], i32)> = Vec::new();
+    for edge in view.marked_edges.unwrap_or(&[]) {
+        let [a, b] = edge.ends.map(|v| v.index() as u32);
+        marked.push(([a.min(b), a.max(b)], edge.marker));
+    }
+    marked.sort_unstable();
+    text.integer(edges.iter().count()).text(" 1\n");
+    for (i, edge) in edges.iter().enumerate() {
+        let found = marked.binary_search_by_key(&edge.ends, |(ends, _)| *ends);
+        let marker = found.map_or(i32::from(edge.triangles == 1), |at| marked[at].1);
+        text.integer(i).text(" ").integer(edge.ends[0]);
+        text.text(" ").integer(edge.ends[1]);
+        end_with_marker(&mut text, Some(&marker))?;
+    }
+    text.finish()
+}
+
+/// Writes the neighbours of each triangle, opposite to its corners, -1 for none.
+pub(crate) fn write_neigh(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
+    let mut text = TextWriter::new(out);
+    let edges = Edges::new(view.mesh);
+    text.integer(view.mesh.triangles.len()).text(" 3\n");
+    for (t, &corners) in view.mesh.triangles.iter().enumerate() {
+        text.integer(t);
+        for neighbour in edges.neighbours(t, corners) {
+            text.text(" ").integer(neighbour.map_or(-1, i64::from));
+        }
+        text.text("\n").breathe()?;
+    }
+    text.finish()
+}
+
+/// Writes the vertices of a mesh and its marked edges as segments, or those of its
+/// boundary with marker 1 if none are known.
+pub(crate) fn write_mesh_poly(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
+    write_node(out, view)?;
+    let mut text = TextWriter::new(out);
+    let segment = |text: &mut TextWriter<'_>, i: usize, ends: [u32; 2], marker: i32| {
+        text.integer(i).text(" ").integer(ends[0]);
+        text.text(" ").integer(ends[1]);
+        end_with_marker(text, Some(&marker))
+    };
+    if let Some(marked) = view.marked_edges {
+        text.integer(marked.len()).text(" 1\n");
+        for (i, edge) in marked.iter().enumerate() {
+            segment(&mut text, i, edge.ends.map(|v| v.index() as u32), edge.marker)?;
+        }
+    } else {
+        let edges = Edges::new(view.mesh);
+        let boundary = || edges.iter().filter(|edge| edge.triangles == 1);
+        text.integer(boundary().count()).text(" 1\n");
+        for (i, edge) in boundary().enumerate() {
+            segment(&mut text, i, edge.ends, 1)?;
+        }
+    }
+    text.text("0\n").finish()
 }
 
 /// Writes points with their attributes and markers.

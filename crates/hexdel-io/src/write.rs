@@ -1,5 +1,6 @@
 //! Writing files: which writer for which format, all or nothing.
 
+use std::ffi::OsStr;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -11,7 +12,9 @@ use crate::format::{MeshFormat, PointFormat};
 use crate::read::beside;
 use crate::text::TextWriter;
 use crate::view::MeshView;
-use crate::{mesh_ron, svg, triangle_out, vtu};
+use crate::{
+    graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, picture, svg, triangle_out, vtu,
+};
 
 /// Writes a mesh, or its picture, in the format that the extension stands for.
 ///
@@ -81,8 +84,9 @@ pub fn write_mesh_to(
 ///
 /// # Errors
 ///
-/// [`WriteError::PointsOnly`] if the format would lose segments, holes or regions;
-/// any other [`WriteError`] but [`WriteError::TwoFiles`].
+/// [`WriteError::ReadOnly`] if the format is not written, [`WriteError::PointsOnly`] if
+/// it would lose segments, holes or regions; any other [`WriteError`] but
+/// [`WriteError::TwoFiles`].
 pub fn write_points(path: impl AsRef<Path>, pslg: &Pslg) -> Result<(), WriteError> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -90,13 +94,57 @@ pub fn write_points(path: impl AsRef<Path>, pslg: &Pslg) -> Result<(), WriteErro
         return Err(WriteError::UnknownExtension { file: name, known: PointFormat::EXTENSIONS });
     };
     check_points(format, pslg, &name)?;
+    let delimiter = delimiter(path.extension());
     let mut draft = Draft::create(path)?;
-    draft.write(|out| match format {
+    draft.write(|out| write_graph(out, format, delimiter, pslg))?;
+    draft.publish()
+}
+
+/// Writes points to a stream, `name` being what errors call it. A table has commas.
+///
+/// # Errors
+///
+/// As [`write_points`].
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::{DVec2, Pslg};
+/// use hexdel_io::{PointFormat, write_points_to};
+///
+/// let pslg = Pslg::from_points(vec![DVec2::new(0.5, 1.0)]);
+/// let mut csv = Vec::new();
+/// write_points_to(&mut csv, PointFormat::Table, &pslg, "stream")?;
+/// assert_eq!(csv, b"x,y\n0.5,1.0\n");
+/// # Ok::<(), hexdel_io::WriteError>(())
+/// ```
+pub fn write_points_to(
+    out: &mut dyn Write,
+    format: PointFormat,
+    pslg: &Pslg,
+    name: &str,
+) -> Result<(), WriteError> {
+    check_points(format, pslg, name)?;
+    write_graph(out, format, Some(","), pslg).map_err(WriteError::io(name))
+}
+
+fn write_graph(
+    out: &mut dyn Write,
+    format: PointFormat,
+    delimiter: Option<&str>,
+    pslg: &Pslg,
+) -> io::Result<()> {
+    match format {
         PointFormat::Node => triangle_out::write_points(out, pslg),
         PointFormat::Poly => triangle_out::write_poly(out, pslg),
-        PointFormat::Table => write_table(out, path, &pslg.points),
-    })?;
-    draft.publish()
+        PointFormat::Table => write_table(out, delimiter, &pslg.points),
+        PointFormat::Json => graph_json::write_graph(out, pslg),
+        PointFormat::Ron => graph_ron::write_graph_ron(out, pslg),
+        // Refused by `check_points`.
+        PointFormat::GeoJson | PointFormat::Wkt | PointFormat::CgShop => {
+            Err(io::ErrorKind::Unsupported.into())
+        }
+    }
 }
 
 type StreamWriter = fn(&mut dyn Write, &MeshView<'_>) -> io::Result<()>;
@@ -105,28 +153,48 @@ type StreamWriter = fn(&mut dyn Write, &MeshView<'_>) -> io::Result<()>;
 fn stream_writer(format: MeshFormat) -> Option<StreamWriter> {
     match format {
         MeshFormat::Vtu => Some(vtu::write_vtu),
+        MeshFormat::Edge => Some(triangle_out::write_edge),
+        MeshFormat::Neigh => Some(triangle_out::write_neigh),
+        MeshFormat::Poly => Some(triangle_out::write_mesh_poly),
+        MeshFormat::Msh41 => Some(msh_out::write_msh41),
+        MeshFormat::Msh22 => Some(msh_out::write_msh22),
+        MeshFormat::Obj => Some(obj::write_obj),
+        MeshFormat::Off => Some(off::write_off),
+        MeshFormat::Medit => Some(medit::write_medit),
+        MeshFormat::Json => Some(mesh_json::write_json),
         MeshFormat::Ron => Some(mesh_ron::write_ron),
         MeshFormat::Svg => Some(svg::write_svg),
+        #[cfg(feature = "png")]
+        MeshFormat::Png => Some(crate::png::write_png),
         MeshFormat::NodeEle => None,
     }
 }
 
 fn check(format: MeshFormat, view: &MeshView<'_>, name: &str) -> Result<(), WriteError> {
     view.check(name)?;
-    if format == MeshFormat::Svg {
-        view.picture.check(name)?;
+    match format {
+        format if format.is_picture() => picture::check(view, name),
+        MeshFormat::Medit => medit::check_regions(view, name),
+        MeshFormat::Json => {
+            graph_json::check_numbers(view.regions.unwrap_or(&[]).iter().copied(), "region of triangle", name)
+        }
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 fn check_points(format: PointFormat, pslg: &Pslg, name: &str) -> Result<(), WriteError> {
+    if !format.is_written() {
+        return Err(WriteError::ReadOnly { file: name.to_owned(), format: format.name() });
+    }
     pslg.check_layout().map_err(|source| WriteError::Layout { file: name.to_owned(), source })?;
     for (item, points) in [("point", &pslg.points), ("hole", &pslg.holes)] {
         check_finite(item, points.iter().copied(), name)?;
     }
     check_finite("region", pslg.regions.iter().map(|r| r.point), name)?;
-    if format == PointFormat::Poly {
-        return Ok(());
+    match format {
+        PointFormat::Poly | PointFormat::Ron => return Ok(()),
+        PointFormat::Json => return graph_json::check_writable(pslg, name),
+        _ => {}
     }
     let lost = [
         ("segments", pslg.segments.is_empty()),
@@ -157,18 +225,23 @@ fn check_finite(
     }
 }
 
-/// Comma and tab tables have a header, others are bare numbers.
-fn write_table(out: &mut dyn Write, path: &Path, points: &[DVec2]) -> io::Result<()> {
-    let has = |extension| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
-    let (delimiter, header) = match (has("csv"), has("tsv")) {
-        (true, _) => (",", "x,y\n"),
-        (_, true) => ("\t", "x\ty\n"),
-        _ => (" ", ""),
-    };
+/// The delimiter of a table with that extension; `None` is a space and no header.
+fn delimiter(extension: Option<&OsStr>) -> Option<&'static str> {
+    let is = |name: &str| extension.is_some_and(|e| e.eq_ignore_ascii_case(name));
+    match (is("csv"), is("tsv")) {
+        (true, _) => Some(","),
+        (_, true) => Some("\t"),
+        _ => None,
+    }
+}
+
+fn write_table(out: &mut dyn Write, delimiter: Option<&str>, points: &[DVec2]) -> io::Result<()> {
     let mut text = TextWriter::new(out);
-    text.text(header);
+    if let Some(delimiter) = delimiter {
+        text.text("x").text(delimiter).text("y\n");
+    }
     for p in points {
-        text.number(p.x).text(delimiter).number(p.y);
+        text.number(p.x).text(delimiter.unwrap_or(" ")).number(p.y);
         text.text("\n").breathe()?;
     }
     text.finish()

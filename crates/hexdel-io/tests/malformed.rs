@@ -3,7 +3,7 @@
 use std::io::{BufReader, Read};
 
 use hexdel_io::PointFormat::{self, Node, Poly, Table};
-use hexdel_io::{ReadError, read_mesh_from, read_points_from};
+use hexdel_io::{ReadError, read_mesh_pair, read_points_from};
 
 fn error(format: PointFormat, text: &[u8]) -> ReadError {
     match read_points_from(text, format, "f") {
@@ -140,10 +140,10 @@ fn triangles() {
         ("2 3 0\n1 1 2 3", "e:2: file ends after 1 of 2 triangles"),
         ("1 3 0\n1 1 2 3\n2 1 2 3", "e:3: expected the end of the file after the triangles, found \"2\""),
     ] {
-        let found = read_mesh_from((nodes.as_bytes(), "n"), (elements.as_bytes(), "e"));
+        let found = read_mesh_pair((nodes.as_bytes(), "n"), (elements.as_bytes(), "e"));
         assert_eq!(found.unwrap_err().to_string(), message);
     }
-    let found = read_mesh_from((&b"0 2\n"[..], "n"), (&b"1\n0 0 0 0\n"[..], "e"));
+    let found = read_mesh_pair((&b"0 2\n"[..], "n"), (&b"1\n0 0 0 0\n"[..], "e"));
     assert!(matches!(found, Err(ReadError::IndexOutOfRange { points: 0, .. })));
 }
 

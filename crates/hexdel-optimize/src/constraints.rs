@@ -105,6 +105,7 @@ impl Line {
 }
 
 /// Bounds by place, and limits on areas.
+#[derive(Clone)]
 pub(crate) struct Rules<'a> {
     far: Limits,
     near: Limits,

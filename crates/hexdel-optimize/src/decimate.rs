@@ -23,9 +23,13 @@ pub(crate) struct Pass {
     pub(crate) near: f64,
 }
 
-/// Energy after the first ring has moved above which more rings do not help,
-/// square radians; measured.
-const HOPELESS: f64 = 1.0;
+/// Energy after a ring has moved above which more rings seldom help, square
+/// radians; measured: 0.3 gives up 2 % of the removals and saves a sixth of the
+/// time that 1.0 takes.
+const HOPELESS: f64 = 0.3;
+
+/// The first pass has so many likely removals that flips do not pay.
+const FIRST: Effort = Effort { sweeps: Sweeps { most: 30, stall: 0.4 }, turns: 1, near: 0.0, steps: 0 };
 
 const REMOVAL: Effort = Effort { sweeps: Sweeps { most: 30, stall: 0.6 }, turns: 3, near: 0.0, steps: 6 };
 
@@ -40,13 +44,13 @@ pub(crate) const PASSES: [Pass; 13] = [
     pass(2, 1, 0.5, 0.0),
     pass(2, 1, 0.6, 0.01),
     pass(3, 1, 0.5, 0.01),
-    pass(3, 1, 0.5, 0.01),
     pass(3, 2, 0.6, 0.01),
-    pass(4, 1, 0.5, 0.01),
-    pass(4, 1, 0.5, 0.01),
     pass(4, 2, 0.6, 0.01),
     pass(4, 2, 0.6, 0.01),
-    pass(4, 2, 0.6, 0.01),
+    pass(4, 3, 0.7, 0.01),
+    pass(5, 2, 0.6, 0.01),
+    pass(5, 3, 0.7, 0.01),
+    pass(5, 3, 0.7, 0.01),
 ];
 
 const fn pass(rings: u8, refills: usize, max_cost: f64, near: f64) -> Pass {
@@ -118,11 +122,12 @@ fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
 /// Moves ever more rings around `verts` until everything changed holds.
 pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
     work.load(verts);
+    let effort = if pass.rings == 1 { FIRST } else { Effort { near: pass.near, ..REMOVAL } };
     for ring in 1..=pass.rings {
         if ring > 1 {
             work.grow();
         }
-        let state = work.solve(Effort { near: pass.near, ..REMOVAL });
+        let state = work.solve(effort);
         if state.solved {
             return work.changes_hold();
         }

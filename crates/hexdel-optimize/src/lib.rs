@@ -15,6 +15,7 @@
 //! | `repair` | brings all angles inside |
 //! | `rescue` | refines where repair gives up |
 //! | `decimate` | removes vertices |
+//! | `sizing` | [`Sizing`]: how long edges may be |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill`, `segment` | candidate changes of topology and their ranking |
 //! | `work` | a mesh under work: patch, flips, commit, rollback |
@@ -48,10 +49,12 @@ mod rescue;
 mod schedule;
 mod segment;
 mod shake;
+mod sizing;
 mod work;
 
 pub use constraints::{AreaLimit, Constraints, Hopeless};
 pub use error::OptimizeError;
 pub use options::{Effort, Optimized, Options, Stats, VertexKind};
 pub use outline::kinds_of;
-pub use schedule::{optimize, optimize_constrained};
+pub use schedule::{optimize, optimize_constrained, optimize_sized};
+pub use sizing::{SIZE_TOLERANCE, Sizing, edge_fits, triangle_fits};

@@ -23,7 +23,7 @@ const SHAPE_WEIGHT: f64 = 0.1;
 const IMPOSSIBLE: f64 = 1e3;
 
 /// All triangulations of convex polygons.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Refills {
     /// Entry `n`: the triangulations of `n` corners, each `n - 2` triples.
     of: Vec<Vec<Vec<[u8; 3]>>>,

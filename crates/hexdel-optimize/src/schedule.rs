@@ -17,9 +17,10 @@ use crate::options::{Effort, Optimized, Options, Stats, VertexKind};
 use crate::partition::{Cuts, Part, Seams, extract, merge, partition, spots};
 use crate::random::Random;
 use crate::refill::Refills;
-use crate::repair::{self, repair, search};
+use crate::repair::{self, search};
 use crate::rescue::rescue;
 use crate::shake::{SHAKES, shake};
+use crate::sizing::Sizing;
 use crate::work::Work;
 
 /// Brings every angle of `mesh` inside the bounds and removes vertices while
@@ -55,7 +56,24 @@ pub fn optimize(
     options: &Options,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
-    run(mesh, kinds, None, options, monitor)
+    run(mesh, kinds, None, options, None, monitor)
+}
+
+/// Like [`optimize`], with edges no longer than wanted: what removals and
+/// shakes change keeps to `sizing`. Repair does not, and edges that are longer
+/// in the mesh given may stay so.
+///
+/// # Errors
+///
+/// As [`optimize`].
+pub fn optimize_sized(
+    mesh: TriMesh,
+    kinds: &[VertexKind],
+    options: &Options,
+    sizing: &dyn Sizing,
+    monitor: &dyn Monitor,
+) -> Result<Optimized, OptimizeError> {
+    run(mesh, kinds, None, options, Some(sizing), monitor)
 }
 
 /// [`optimize`] for a mesh with segments in it.
@@ -81,7 +99,7 @@ pub fn optimize_constrained(
     options: &Options,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
-    run(mesh, kinds, Some(constraints), options, monitor)
+    run(mesh, kinds, Some(constraints), options, None, monitor)
 }
 
 fn run(
@@ -89,24 +107,25 @@ fn run(
     kinds: &[VertexKind],
     constraints: Option<&Constraints<'_>>,
     options: &Options,
+    sizing: Option<&dyn Sizing>,
     monitor: &dyn Monitor,
 ) -> Result<Optimized, OptimizeError> {
     let vertices = mesh.vertices.len();
     let soup = import(mesh, kinds, constraints)?;
     let rules = Rules::new(options.bounds, constraints);
-    let mut run = Run::new(soup, options, &rules, monitor);
+    let mut run = Run { sizing, ..Run::new(soup, options, &rules, monitor) };
     match run.all() {
         Ok(()) | Err(Stop::OutOfTime) => run.finish(vertices),
         Err(Stop::Cancelled(c)) => Err(c.into()),
     }
 }
 
-/// Passes of removals at fast effort, and the fewest before search.
-const FAST_PASSES: usize = 5;
+/// Passes of removals at fast effort.
+const FAST_PASSES: usize = 1;
 
-/// Passes of removals at standard effort: the later ones take half as long
-/// again for 3 to 4 % fewer triangles.
-const STANDARD_PASSES: usize = 9;
+/// Passes of removals at standard effort: the later ones take as long again
+/// for a twentieth fewer triangles.
+const STANDARD_PASSES: usize = 8;
 
 /// Rings around bad triangles that are one part, in turn: as far as changes
 /// reach, and some more with each round.
@@ -120,7 +139,7 @@ const HOPELESS: usize = 20;
 
 /// Parts that a thread works on between two looks at clock and monitor: some
 /// tenths of a second.
-const BATCH: usize = 4;
+const BATCH: usize = 8;
 
 /// Rounds of search that hopeless triangles take part in.
 const HOPEFUL_ROUNDS: usize = 2;
@@ -136,6 +155,9 @@ struct Run<'a> {
     soup: Soup,
     options: &'a Options,
     monitor: &'a dyn Monitor,
+    sizing: Option<&'a dyn Sizing>,
+    /// The sizing where the present round keeps to it.
+    guard: Option<&'a dyn Sizing>,
     rules: &'a Rules<'a>,
     refills: Refills,
     start: Instant,
@@ -150,6 +172,8 @@ impl<'a> Run<'a> {
             soup,
             options,
             monitor,
+            sizing: None,
+            guard: None,
             rules,
             refills: Refills::new(),
             start: Instant::now(),
@@ -158,15 +182,18 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The phases in turn. Removals come before search: what motion alone does
-    /// not settle often goes with a vertex, and search is cheaper on the
-    /// coarser mesh.
+    /// The phases in turn. Motion and removals come before search: what motion
+    /// alone does not settle often goes with a vertex, and search is cheaper on
+    /// the coarser mesh.
     fn all(&mut self) -> Result<(), Stop> {
-        self.move_all()?;
-        self.decimate(0, self.passes())?;
+        match self.passes() {
+            0 => self.move_all()?,
+            passes => self.decimate(0, passes)?,
+        }
         self.search()?;
         if self.options.effort == Effort::Best {
             self.decimate(STANDARD_PASSES, PASSES.len())?;
+            self.guard = self.sizing;
             for _ in 0..SHAKES {
                 self.round(shake)?;
             }
@@ -186,7 +213,7 @@ impl<'a> Run<'a> {
 
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        let once = repair::FIRST_ROUNDS + repair::SEARCH.len() + RESCUE_RINGS.len();
+        let once = repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
         match self.options.effort {
             Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),
             Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),
@@ -194,9 +221,11 @@ impl<'a> Run<'a> {
     }
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
-        for &pass in &PASSES[from..to] {
+        self.guard = self.sizing;
+        for i in from..to {
             self.round(|work| {
-                decimate(work, pass);
+                repair::moves(work, i);
+                decimate(work, PASSES[i]);
             })?;
         }
         Ok(())
@@ -204,17 +233,19 @@ impl<'a> Run<'a> {
 
     /// Motion alone, over the whole mesh.
     fn move_all(&mut self) -> Result<(), Stop> {
-        for i in 0..repair::FIRST_ROUNDS {
+        self.guard = None;
+        for i in 0..repair::MOVES.len() {
             if self.bad().is_empty() {
                 break;
             }
-            self.round(|work| repair(work, repair::step(i)))?;
+            self.round(|work| repair::moves(work, i))?;
         }
         Ok(())
     }
 
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
+        self.guard = None;
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
             let bad = self.hopeful(i < HOPEFUL_ROUNDS);
             if bad.is_empty() {
@@ -225,8 +256,9 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, |work| search(work, steps))?;
         }
         for rings in RESCUE_RINGS {
-            let bad = self.hopeful(false);
-            if bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+            let bad = self.bad();
+            // Between segments that meet at less than the bound no refinement helps.
+            if self.soup.is_constrained() || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
@@ -237,20 +269,22 @@ impl<'a> Run<'a> {
 
     /// Triangles outside the bounds for which there is hope, or all.
     fn hopeful(&self, all: bool) -> Vec<u32> {
-        let corners = |t: usize| self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
-        let hope = |&t: &usize| all || !self.rules.is_hopeless(corners(t));
-        self.bad().into_iter().filter(hope).map(|t| t as u32).collect()
+        let corners = |t: u32| self.soup.tris[t as usize].map(|v| self.soup.pos[v as usize]);
+        let mut bad = self.bad();
+        bad.retain(|&t| all || !self.rules.is_hopeless(corners(t)));
+        bad
     }
 
     /// Triangles outside the bounds.
-    fn bad(&self) -> Vec<usize> {
+    fn bad(&self) -> Vec<u32> {
         let near = self.soup.near();
-        let is_bad = |&t: &usize| {
+        let is_bad = |&t: &u32| {
+            let t = t as usize;
             let [a, b, c] = self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
             let place = self.soup.place(t, &near);
             !self.rules.is_within(place, Measure::of(a, b, c))
         };
-        (0..self.soup.tris.len()).filter(is_bad).collect()
+        (0..self.soup.tris.len() as u32).filter(is_bad).collect()
     }
 
     /// Does `job` to every part of a new partition. When time is over the
@@ -268,20 +302,20 @@ impl<'a> Run<'a> {
         let seed = self.options.seed.wrapping_add((round as u64) << 32);
         let mut parts = Vec::with_capacity(cuts.parts.len());
         let batch = BATCH * rayon::current_num_threads();
-        for batch in cuts.parts.chunks(batch) {
-            let first = parts.len();
+        for first in (0..cuts.parts.len()).step_by(batch) {
             let idle = match self.look() {
                 Err(Stop::Cancelled(c)) => return Err(Stop::Cancelled(c)),
                 looked => looked.is_err(),
             };
-            let work = |(i, triangles): (usize, &Vec<u32>)| {
-                let part = extract(&self.soup, &seams, triangles);
+            let work = |i: usize| {
+                let part = extract(&self.soup, &seams, cuts, i);
                 if idle {
                     return (part, Stats::default());
                 }
-                self.work(part, seed.wrapping_add((first + i) as u64), &job)
+                self.work(part, seed.wrapping_add(i as u64), &job)
             };
-            let done: Vec<(Part, Stats)> = batch.par_iter().enumerate().map(work).collect();
+            let last = (first + batch).min(cuts.parts.len());
+            let done: Vec<(Part, Stats)> = (first..last).into_par_iter().map(work).collect();
             for (part, stats) in done {
                 self.stats.add(&stats);
                 parts.push(part);
@@ -297,6 +331,7 @@ impl<'a> Run<'a> {
         // The generator's first output spreads neighbouring seeds.
         let seed = Random::new(seed).next();
         let mut work = Work::new(part.mesh, self.rules, &self.refills, part.failed, seed);
+        work.sizing = self.guard;
         job(&mut work);
         work.stats.steps = work.patch.steps();
         (Part { mesh: work.mesh, global: part.global, failed: work.failed }, work.stats)
@@ -316,7 +351,7 @@ impl<'a> Run<'a> {
 
     fn finish(self, vertices: usize) -> Result<Optimized, OptimizeError> {
         let bad = self.bad();
-        let corners = bad.first().map(|&t| self.soup.tris[t].map(|v| self.soup.pos[v as usize]));
+        let corners = bad.first().map(|&t| self.soup.tris[t as usize].map(|v| self.soup.pos[v as usize]));
         let Exported { mesh, kinds, vertices, edges } = export(self.soup, vertices);
         let best = Optimized { mesh, vertices, kinds, edges, stats: self.stats, finished: !self.stopped };
         match corners {

@@ -7,6 +7,7 @@ use crate::options::Stats;
 use crate::patch::{Patch, State, Sweeps};
 use crate::random::Random;
 use crate::refill::Refills;
+use crate::sizing::{Sizing, triangle_fits};
 
 /// How long one patch is worked on.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +26,8 @@ pub(crate) struct Work<'a> {
     pub(crate) mesh: Mesh,
     pub(crate) rules: &'a Rules<'a>,
     pub(crate) refills: &'a Refills,
+    /// How long the edges of what changes may be, if that matters.
+    pub(crate) sizing: Option<&'a dyn Sizing>,
     pub(crate) patch: Patch,
     pub(crate) random: Random,
     /// As in `Soup::failed`; as long as the mesh's vertices after a commit.
@@ -57,6 +60,7 @@ impl<'a> Work<'a> {
             mesh,
             rules,
             refills,
+            sizing: None,
             patch: Patch::default(),
             random: Random::new(seed),
             failed,
@@ -112,11 +116,13 @@ impl<'a> Work<'a> {
     }
 
     /// Whether everything changed since the last commit keeps the bounds, and
-    /// the patch is Delaunay where the bounds do not imply it.
+    /// the patch is Delaunay where the bounds do not imply it, its edges as short
+    /// as wanted.
     pub(crate) fn changes_hold(&self) -> bool {
         let mut ok = true;
         self.mesh.changed(|t| ok = ok && self.is_good(t));
-        ok && (!self.rules.check_delaunay() || self.patch_is_delaunay())
+        ok && self.changes_fit()
+            && (!self.rules.check_delaunay() || self.patch_is_delaunay())
             && (!self.mesh.is_constrained() || self.places_hold())
             && (!self.rules.limits_areas() || self.areas_hold())
     }
@@ -147,6 +153,20 @@ impl<'a> Work<'a> {
         self.mesh.changed(|t| hold = hold && self.rules.is_small(corners(t)));
         let is_small = |&t: &u32| !self.mesh.tri[t as usize].alive() || self.rules.is_small(corners(t));
         hold && self.patch.triangles().iter().all(is_small)
+    }
+
+    /// Whether no edge that changed is longer than wanted.
+    fn changes_fit(&self) -> bool {
+        let Some(sizing) = self.sizing else {
+            return true;
+        };
+        let fits = |t: u32| {
+            let corners = self.mesh.tri[t as usize].v;
+            triangle_fits(sizing, corners.map(|v| self.mesh.pos[v as usize]))
+        };
+        let mut ok = self.patch.triangles().iter().all(|&t| fits(t));
+        self.mesh.changed(|t| ok = ok && fits(t));
+        ok
     }
 
     fn patch_is_delaunay(&self) -> bool {

@@ -22,7 +22,9 @@ fn main() -> std::io::Result<()> {
         report(&format!("two segments at {angle} degrees"), seeds, made)?;
     }
     for n in [12, 13, 18, 24, 36, 60, 120] {
-        report(&format!("star of {n}, {:.1} degrees", 360.0 / f64::from(n)), seeds, |seed| support::rays(n, seed))?;
+        report(&format!("star of {n}, {:.1} degrees", 360.0 / f64::from(n)), seeds, |seed| {
+            support::rays(n, seed)
+        })?;
     }
     Ok(())
 }

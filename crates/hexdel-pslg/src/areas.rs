@@ -53,6 +53,16 @@ impl<'a> AreaLimits<'a> {
         Some(Self { plane, by_triangle, circle })
     }
 
+    /// The triangles of a mesh that are larger than allowed where their
+    /// centroids lie.
+    pub(crate) fn exceeded(&self, net: &Net) -> Vec<u32> {
+        let large = |&t: &u32| {
+            let [a, b, c] = net.corners(t);
+            0.5 * (b - a).perp_dot(c - a) > self.at((a + b + c) / 3.0)
+        };
+        net.alive().filter(large).collect()
+    }
+
     /// The limit at a place.
     pub(crate) fn at(&self, p: DVec2) -> f64 {
         if p.distance(self.circle.center) > self.circle.radius {

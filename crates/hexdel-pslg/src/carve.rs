@@ -1,6 +1,7 @@
 //! What lies outside and in holes goes; regions are told apart.
 
 use crate::net::{Kind, NONE, Net};
+use crate::validate::Validated;
 use hexdel_geom::DVec2;
 
 /// Takes away what can be reached from the rim without crossing a piece, if
@@ -10,6 +11,49 @@ pub(crate) fn carve(net: &mut Net, holes: &[DVec2], outside: bool) {
     if doomed.iter().any(|&d| d) {
         net.carve(&doomed);
         split_fans(net);
+    }
+}
+
+/// What of a graph lies in holes or outside.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Carved {
+    /// For each point whether nothing around it is left.
+    pub points: Vec<bool>,
+    /// For each of [`Validated::pieces`] whether nothing on either side is left.
+    pub pieces: Vec<bool>,
+}
+
+impl Validated {
+    /// What is taken away with the holes, and with the outside if `outside`.
+    ///
+    /// ```
+    /// use hexdel_geom::{DVec2, Pslg};
+    ///
+    /// let points = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (2.0, 2.0)].map(|(x, y)| DVec2::new(x, y));
+    /// let mut graph = Pslg::from_points(points.to_vec());
+    /// graph.segments = vec![[0, 1], [1, 2], [2, 0], [1, 3]];
+    /// let carved = hexdel_pslg::validate(&graph)?.carved(true);
+    /// assert_eq!(carved.points, [false, false, false, true]);
+    /// assert_eq!(carved.pieces, [false, false, false, true]);
+    /// # Ok::<(), hexdel_pslg::ValidateError>(())
+    /// ```
+    pub fn carved(&self, outside: bool) -> Carved {
+        let doomed = reached(&self.plane, &self.pslg.holes, outside);
+        let mut pieces = vec![true; self.pieces.len()];
+        let mut vertices = vec![true; self.plane.vertex_count() as usize];
+        for t in self.plane.alive().filter(|&t| !doomed[t as usize]) {
+            let tri = self.plane.tri(t);
+            for i in 0..3 {
+                vertices[tri.v[i] as usize] = false;
+                if let Some(piece) = pieces.get_mut(tri.s[i] as usize) {
+                    *piece = false;
+                }
+            }
+        }
+        let sites = self.points.site_of_input().iter();
+        let points = sites.map(|&site| vertices[self.vertex_of_site[site as usize] as usize]).collect();
+        Carved { points, pieces }
     }
 }
 

@@ -17,6 +17,9 @@ use hexdel_geom::{DVec2, orient2d};
 /// triangles.
 const FLAT: f64 = 1e-6;
 
+/// The mark of hull edges that are no pieces, above all numbers of pieces.
+const HULL: u32 = NONE - 1;
+
 /// The pieces of the input and, where they do not enclose the hull, hull edges.
 pub(crate) fn with_hull(input: &Validated) -> Vec<Piece> {
     let sites = input.points.sites();
@@ -32,9 +35,14 @@ pub(crate) fn with_hull(input: &Validated) -> Vec<Piece> {
         let [v, goal] = [a, b].map(|s| input.vertex_of_site[s as usize]);
         if let Trace::Vertex { vertex, crossed } = plane.trace(v, goal)
             && vertex == goal
-            && !crossed.is_empty()
         {
-            plane.recover(v, goal, crossed, NONE);
+            if let Some((t, i)) = plane.find_either(v, goal)
+                && plane.tri(t).s[i] != NONE
+            {
+                continue;
+            }
+            // What is recovered next must not flip it away again.
+            plane.recover(v, goal, crossed, HULL);
         }
     }
     for edge in ends {
@@ -49,7 +57,7 @@ fn peel(plane: &Net, input: &Validated, edge: [u32; 2], pieces: &mut Vec<Piece>)
     while let Some([a, b]) = stack.pop() {
         let [v, w] = [a, b].map(|s| input.vertex_of_site[s as usize]);
         let Some((t, i)) = plane.find_edge(v, w) else { continue };
-        if plane.tri(t).s[i] != NONE {
+        if ![NONE, HULL].contains(&plane.tri(t).s[i]) {
             continue;
         }
         let apex = plane.vertex(plane.tri(t).v[i]);

@@ -1,12 +1,12 @@
 //! Triangle meshes of planar straight-line graphs.
 //!
 //! Section 7 of the paper puts segments into the grid by templates, and loses
-//! its bounds there. Here the grid is only made fine enough for the segments;
-//! they are embedded into its dual mesh, and an optimiser brings the angles
-//! around them between 30 and 90 degrees. Two edges away from points and
-//! segments the bounds of the plain mesh hold, 43.9 to 90 degrees. No angle is
-//! obtuse, so that segments are edges of the Delaunay triangulation of the
-//! vertices, not only of a constrained one.
+//! its bounds there; that is [`SegmentMethod::Paper`]. By default the grid is
+//! only made fine enough for the segments; they are embedded into its dual
+//! mesh, and an optimiser brings the angles around them between 30 and 90
+//! degrees. Two edges away from points and segments the bounds of the plain
+//! mesh hold, 43.9 to 90 degrees. No angle is obtuse, so that segments are edges
+//! of the Delaunay triangulation of the vertices, not only of a constrained one.
 //!
 //! [`validate`] says whether a graph is planar, [`repair`] makes it so, [`mesh`]
 //! meshes it. Success of the optimiser is not proved: what does not keep its
@@ -29,6 +29,7 @@
 //! | `fit` | the optimiser |
 //! | `compact` | fewer triangles |
 //! | `mesher` | the order of things |
+//! | `paper` | the paper's own way with segments, to compare with |
 //! | `output` | the result |
 //!
 //! Left to others: reading and writing (`hexdel-io`), and how vertices are
@@ -48,16 +49,17 @@ mod net;
 mod options;
 mod output;
 mod pairs;
+mod paper;
 mod repair;
 mod result;
 mod sectors;
 mod sizing;
 mod validate;
-
+pub use carve::Carved;
 pub use error::{Feature, PslgError, ValidateError};
 pub use hexdel_optimize::Effort;
 pub use mesher::mesh;
-pub use options::{Extent, Options};
+pub use options::{Extent, Options, SegmentMethod};
 pub use repair::{Repair, RepairReport, repair};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
 pub use validate::{Divided, Validated, validate, violations};

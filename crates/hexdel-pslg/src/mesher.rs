@@ -9,8 +9,9 @@ use crate::fit::judge::{Judge, Wedges};
 use crate::fit::optimise;
 use crate::hull::with_hull;
 use crate::net::Net;
-use crate::options::{Extent, Options};
+use crate::options::{Extent, Options, SegmentMethod};
 use crate::output::{self, Parts};
+use crate::paper;
 use crate::result::PslgMesh;
 use crate::sectors::{Sector, narrow_sectors, sector_near, wedges};
 use crate::sizing::{Demand, Features, lattice_for, refine};
@@ -30,7 +31,7 @@ const REFINED_RADIUS: f64 = 1.5;
 
 /// The largest triangle of a grid over the square of its spacing: equilateral
 /// ones have 0.433, templates and the optimiser make larger ones.
-const AREA_PER_SPACING_SQ: f64 = 0.75;
+pub(crate) const AREA_PER_SPACING_SQ: f64 = 0.75;
 
 /// Meshes a planar straight-line graph.
 ///
@@ -79,6 +80,9 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     if asked.min_deg() > kept.min_deg() || asked.max_deg() < kept.max_deg() {
         return Err(PslgError::BoundsBeyondMethod { asked, kept });
     }
+    if options.method == SegmentMethod::Paper {
+        return paper::mesh(input, options, monitor);
+    }
     let mesher = Mesher::new(input, options);
     let mut demands = Vec::new();
     let mut best: Option<(usize, Net)> = None;
@@ -116,7 +120,7 @@ impl Left {
 }
 
 /// A wish for smaller hexagons around a failed triangle.
-fn demand_at(net: &Net, t: u32) -> Demand {
+pub(crate) fn demand_at(net: &Net, t: u32) -> Demand {
     let [a, b, c] = net.corners(t);
     let lengths = [a.distance(b), b.distance(c), c.distance(a)];
     let mean = lengths.iter().sum::<f64>() / 3.0;
@@ -172,12 +176,7 @@ impl<'a> Mesher<'a> {
 
     /// The triangles larger than allowed where their centroids lie.
     fn too_large(&self, net: &Net) -> Vec<u32> {
-        let Some(areas) = &self.areas else { return Vec::new() };
-        let large = |&t: &u32| {
-            let [a, b, c] = net.corners(t);
-            0.5 * (b - a).perp_dot(c - a) > areas.at((a + b + c) / 3.0)
-        };
-        net.alive().filter(large).collect()
+        self.areas.as_ref().map_or_else(Vec::new, |areas| areas.exceeded(net))
     }
 
     fn left(&self, net: &Net) -> Left {
@@ -213,8 +212,13 @@ impl<'a> Mesher<'a> {
     /// The result; without right angles near segments if rounding took some of
     /// them from Delaunay.
     fn finished(&self, net: Net, retries: u32, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
-        let parts =
-            Parts { input: self.input, pieces: &self.pieces, sectors: &self.sectors, judge: self.judge() };
+        let parts = Parts {
+            input: self.input,
+            pieces: &self.pieces,
+            sectors: &self.sectors,
+            judge: self.judge(),
+            method: self.options.method,
+        };
         let made = output::finish(net.clone(), &parts, retries, monitor)?;
         if made.certificate.delaunay || !made.failed.is_empty() {
             return Ok(made);

@@ -16,12 +16,27 @@ pub enum Extent {
     Inside,
 }
 
+/// How segments come into the mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SegmentMethod {
+    /// They are embedded, and an optimiser brings the angles around them within
+    /// bounds.
+    #[default]
+    Conform,
+    /// By the templates of the paper's section 7, which keep no bounds near
+    /// segments. For comparison.
+    Paper,
+}
+
 /// How a graph is meshed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
     /// What is covered.
     pub extent: Extent,
+    /// How segments come into the mesh.
+    pub method: SegmentMethod,
     /// Bounds of triangles that have a vertex at most one edge away from a
     /// point or segment of the input.
     pub near: AngleBounds,
@@ -47,6 +62,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             extent: Extent::Hexagon,
+            method: SegmentMethod::Conform,
             near: AngleBounds::new(30.0, 90.0).unwrap_or(AngleBounds::SIMPLE),
             far: AngleBounds::EXTENDED,
             max_area: None,
@@ -67,6 +83,13 @@ impl Options {
     #[must_use]
     pub fn extent(mut self, extent: Extent) -> Self {
         self.extent = extent;
+        self
+    }
+
+    /// With segments treated in this way.
+    #[must_use]
+    pub fn method(mut self, method: SegmentMethod) -> Self {
+        self.method = method;
         self
     }
 

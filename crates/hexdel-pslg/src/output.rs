@@ -4,8 +4,9 @@ use crate::carve::flood;
 use crate::error::PslgError;
 use crate::fit::count_rings;
 use crate::fit::edits::parameter;
-use crate::fit::judge::{Judge, is_sector};
+use crate::fit::judge::{FAR_RING, Judge, is_sector};
 use crate::net::{Kind, NONE, Net};
+use crate::options::SegmentMethod;
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
 use crate::sectors::{Sector, sector_near};
 use crate::validate::{Piece, Validated};
@@ -20,6 +21,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) pieces: &'a [Piece],
     pub(crate) sectors: &'a [Sector],
     pub(crate) judge: Judge<'a>,
+    pub(crate) method: SegmentMethod,
 }
 
 /// Makes the result.
@@ -35,11 +37,14 @@ pub(crate) fn finish(
     let edges = edges(&net, parts, &numbers);
     let bound: FxHashSet<[VertexId; 2]> = edges.iter().map(|e| sorted(e.ends)).collect();
     check(monitor)?;
-    // Where that fails the certificate says so.
-    let free = |v: VertexId| net.vertex(numbers.first[v.index()]).kind == Kind::Free;
-    let _ = restore_constrained_delaunay(&mut mesh, parts.judge.near, free, |ends| {
-        !bound.contains(&sorted(ends))
-    });
+    // What templates make of segments is not Delaunay by design.
+    if parts.method != SegmentMethod::Paper {
+        // Where that fails the certificate says so.
+        let free = |v: VertexId| net.vertex(numbers.first[v.index()]).kind == Kind::Free;
+        let _ = restore_constrained_delaunay(&mut mesh, parts.judge.near, free, |ends| {
+            !bound.contains(&sorted(ends))
+        });
+    }
     let vertex_of_point = numbers.vertex_of_point(parts.input);
     let mut point_of_vertex = vec![None; mesh.vertices.len()];
     for (point, v) in vertex_of_point.iter().enumerate().rev() {
@@ -71,6 +76,7 @@ pub(crate) fn finish(
         edges_of_segment,
         exempt,
         failed,
+        method: parts.method,
         retries,
     })
 }
@@ -232,6 +238,10 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     let point = |site: u32| parts.input.points.input_of_site()[site as usize];
     let failed = net.alive().filter(|&t| parts.judge.is_out(net, t));
     let failed = failed.map(|t| {
+        let is_near = || net.tri(t).v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
+        if parts.method == SegmentMethod::Paper && is_near() {
+            return entry(t, Reason::Template);
+        }
         let near = sector_near(net.corners(t), parts.sectors, parts.input.points.sites());
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
             point: point(sector.site),
@@ -247,13 +257,14 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     };
     let sector = |t: u32| {
         let angles = quality::angles_deg(net.corners(t));
-        (0..3).find_map(|i| match net.vertex(net.tri(t).v[i]).kind {
-            Kind::Site(site) if angles[i] < least && is_sector(net, t, i) => {
-                Some(Reason::Sector { point: point(site), angle_deg: angles[i] })
-            }
-            _ => None,
-        })
-        .or_else(|| if angles.iter().any(|&a| a < least - 1e-6) { narrow(t) } else { None })
+        (0..3)
+            .find_map(|i| match net.vertex(net.tri(t).v[i]).kind {
+                Kind::Site(site) if angles[i] < least && is_sector(net, t, i) => {
+                    Some(Reason::Sector { point: point(site), angle_deg: angles[i] })
+                }
+                _ => None,
+            })
+            .or_else(|| if angles.iter().any(|&a| a < least - 1e-6) { narrow(t) } else { None })
     };
     let exempt = net
         .alive()

@@ -1,5 +1,6 @@
 //! The mesh and what is known about it.
 
+use crate::options::SegmentMethod;
 use hexdel_geom::{Certificate, DVec2, TriMesh, TriangleId, VertexId};
 
 /// A mesh of a planar straight-line graph.
@@ -31,6 +32,8 @@ pub struct PslgMesh {
     /// What the mesh keeps, held against the bounds near segments. Exempt and
     /// failed triangles are counted as out of bounds in it.
     pub certificate: Certificate,
+    /// How segments were treated.
+    pub method: SegmentMethod,
     /// How often the mesh was made anew.
     pub retries: u32,
 }
@@ -85,15 +88,25 @@ pub enum Reason {
     },
     /// The optimiser found no way.
     Unsolved,
+    /// Near a segment or a point on one, where the paper's templates promise no
+    /// bounds.
+    Template,
 }
 
 impl PslgMesh {
     /// Whether every triangle keeps its bounds, up to exempt corners, and
     /// everything else that was asked for is so.
+    ///
+    /// The paper's method promises bounds away from segments only: triangles
+    /// that failed for [`Reason::Template`] do not count, nor does the Delaunay
+    /// property. All else does.
     pub fn holds(&self) -> bool {
         let c = &self.certificate;
-        self.failed.is_empty()
-            && c.delaunay
+        let promised = match self.method {
+            SegmentMethod::Conform => self.failed.is_empty() && c.delaunay,
+            SegmentMethod::Paper => self.failed.iter().all(|f| f.reason == Reason::Template),
+        };
+        promised
             && c.not_counter_clockwise == 0
             && c.malformed == 0
             && c.not_finite == 0

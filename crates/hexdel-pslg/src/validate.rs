@@ -82,6 +82,13 @@ impl Validated {
         &self.divided
     }
 
+    /// The pieces between neighbouring points that segments consist of, in a row
+    /// along each: the segment's index and the points at the ends.
+    pub fn pieces(&self) -> impl Iterator<Item = (usize, [u32; 2])> + '_ {
+        let point = |site: u32| self.points.input_of_site()[site as usize];
+        self.pieces.iter().map(move |piece| (piece.segment as usize, piece.ends.map(point)))
+    }
+
     /// For each input point the first one at the same place: itself, if it is
     /// no duplicate.
     pub fn first_of_point(&self) -> Vec<u32> {

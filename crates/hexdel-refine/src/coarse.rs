@@ -2,8 +2,8 @@
 //!
 //! A mesh optimiser needs far fewer triangles than the templates around points,
 //! but level transitions are what the templates settle best. So only the rules
-//! stay that give every hexagon a class with a template; those about the rings
-//! of occupied hexagons go, step by step:
+//! stay that give every hexagon a class with a template and keep transitions
+//! apart; those about the rings of occupied hexagons go, step by step:
 //!
 //! | start | around occupied hexagons |
 //! |---|---|
@@ -11,7 +11,7 @@
 //! | [`Start::Apart`] | and no two are adjacent |
 //! | [`Start::Among`] | and all their neighbours are full hexagons of the same level (section 4.1) |
 
-use crate::extended::{SubdivideClass, TopOfTwoRuns, TopWithFins};
+use crate::extended::{SubdivideClass, TopOfTwoRuns, TopWithFins, TwoFinsBesideRun};
 use crate::rule::{Rule, Situation};
 use crate::simple::{AdjacentOccupied, Balance, OccupiedAmongFull, OccupiedBesideFiner};
 use hexdel_grid::Window;
@@ -37,6 +37,8 @@ pub(crate) fn rules(start: Start) -> Vec<&'static dyn Rule> {
         &TopOfTwoRuns,
         &StarAmongFull,
         &OccupiedStar,
+        &TwoFinsBesideRun,
+        &MovedAmongFull,
     ];
     if start >= Start::Apart {
         rules.push(&AdjacentOccupied);
@@ -83,5 +85,20 @@ impl Rule for OccupiedStar {
 
     fn must_subdivide(&self, s: &Situation) -> Window {
         s.classes.moved3 & s.view.occupied()
+    }
+}
+
+/// The hexagons around moved ones are full: transitions follow each other at a
+/// distance at which the templates keep their angles. Seen from the finer
+/// side, as in [`FixedBesideFins`](crate::extended::FixedBesideFins).
+pub struct MovedAmongFull;
+
+impl Rule for MovedAmongFull {
+    fn name(&self) -> &'static str {
+        "moved among full"
+    }
+
+    fn must_exist(&self, s: &Situation) -> Window {
+        (s.view.subdivided.dilated() | s.classes.moved4()).dilated()
     }
 }

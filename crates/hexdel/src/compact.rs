@@ -5,9 +5,10 @@
 //! free. The optimiser itself is left to `hexdel-optimize`.
 
 use crate::error::Error;
+use crate::size::Size;
 use hexdel_classify::Dual;
 use hexdel_geom::{AngleBounds, Monitor, Phase, VertexId};
-use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize};
+use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize, optimize_sized};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -33,6 +34,7 @@ pub(crate) struct Ended {
 pub(crate) fn optimize_dual(
     dual: &mut Dual,
     options: &Options,
+    size: Option<&Size>,
     monitor: &dyn Monitor,
 ) -> Result<Ended, Error> {
     let mut fixed = vec![false; dual.mesh.vertices.len()];
@@ -41,7 +43,11 @@ pub(crate) fn optimize_dual(
     }
     let kinds = kinds_of(&dual.mesh, |v: VertexId| fixed[v.index()]);
     let mesh = std::mem::take(&mut dual.mesh);
-    let (optimized, reached) = match optimize(mesh, &kinds, options, monitor) {
+    let done = match size {
+        None => optimize(mesh, &kinds, options, monitor),
+        Some(size) => optimize_sized(mesh, &kinds, options, size, monitor),
+    };
+    let (optimized, reached) = match done {
         Ok(optimized) => (optimized, true),
         Err(OptimizeError::Unreached { best, .. }) => (*best, false),
         Err(OptimizeError::Cancelled(c)) => return Err(Error::Cancelled(c)),

@@ -39,6 +39,11 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+/// The examples of the guide.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/guide.md")]
+struct Guide;
+
 mod compact;
 pub mod error;
 pub mod generate;
@@ -46,6 +51,9 @@ mod graph;
 pub mod mesher;
 pub mod picture;
 mod placement;
+pub mod session;
+pub mod size;
+mod sized;
 pub mod triangulation;
 
 pub use hexdel_classify as classify;
@@ -64,5 +72,8 @@ pub use hexdel_geom::{
     AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
 };
 pub use hexdel_optimize::Effort;
+pub use hexdel_pslg::SegmentMethod;
 pub use mesher::{Mesher, Method, Start, triangulate};
+pub use session::{Outcome, PointId, Session, SessionError, SessionMesh};
+pub use size::{Size, SizeError};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

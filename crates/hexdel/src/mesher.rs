@@ -4,6 +4,8 @@ use crate::compact::{self, Again, Ended};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
+use crate::size::{Size, SizeError};
+use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
 use hexdel_classify::{Domain, Dual, Relocation, extract};
 use hexdel_geom::monitor::check;
@@ -11,7 +13,7 @@ use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
     certify, restore_delaunay, settle_rounding,
 };
-use hexdel_optimize::Effort;
+use hexdel_optimize::{Effort, SIZE_TOLERANCE};
 use hexdel_refine::{Refiner, RuleSet, Start as Coarse};
 use std::time::{Duration, Instant};
 
@@ -20,8 +22,8 @@ use std::time::{Duration, Instant};
 #[non_exhaustive]
 pub enum Method {
     /// The paper's extended refinement and relocation templates (section 5):
-    /// 43.9 to 90 degrees.
-    #[default]
+    /// 43.9 to 90 degrees. No optimisation: fast, many triangles, no edge
+    /// shorter than the paper's `l_min`.
     Templates,
     /// The paper's simple refinement (section 4): 30 to 120 degrees, about a
     /// quarter of the triangles.
@@ -32,6 +34,7 @@ pub enum Method {
     ///
     /// Bounds as wide as the templates' or wider are kept for every input; for
     /// tighter ones it is tried ([`Error::Unreached`]).
+    #[default]
     Compact,
 }
 
@@ -44,13 +47,18 @@ impl Method {
         }
     }
 
-    /// The meshes to begin with, in the order they are tried.
-    fn starts(self, budget: Option<Duration>) -> &'static [Start] {
+    /// The ways to a mesh, in the order they are tried.
+    fn links(self, budget: Option<Duration>) -> &'static [Link] {
+        const COARSE: Link = Link { start: Start::Coarse, optimize: true };
+        const FINE: Link = Link { start: Start::Templates, optimize: true };
+        const TEMPLATES: Link = Link { start: Start::Templates, optimize: false };
+        const SIMPLE: Link = Link { start: Start::Simple, optimize: false };
         match (self, budget) {
-            (Self::Simple, _) => &[Start::Simple],
-            (Self::Compact, None) => &[Start::Coarse, Start::Templates],
+            (Self::Simple, _) => &[SIMPLE],
+            (Self::Templates, _) => &[TEMPLATES],
+            (Self::Compact, None) => &[COARSE, FINE, TEMPLATES],
             // Valid from the first moment, so that any time is enough.
-            (Self::Compact, Some(_)) | (Self::Templates, _) => &[Start::Templates],
+            (Self::Compact, Some(_)) => &[FINE, TEMPLATES],
         }
     }
 }
@@ -68,6 +76,13 @@ pub enum Start {
     Coarse,
 }
 
+/// One way to a mesh.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    start: Start,
+    optimize: bool,
+}
+
 impl Start {
     fn relocation(self) -> Relocation {
         match self {
@@ -77,11 +92,14 @@ impl Start {
         }
     }
 
-    fn rules(self) -> RuleSet {
-        match self {
-            Self::Templates => RuleSet::extended(),
-            Self::Simple => RuleSet::simple(),
-            Self::Coarse => RuleSet::coarse(Coarse::Among),
+    fn rules(self, effort: Effort) -> RuleSet {
+        match (self, effort) {
+            (Self::Templates, _) => RuleSet::extended(),
+            (Self::Simple, _) => RuleSet::simple(),
+            // More repair, fewer removals: what little is removed at this effort
+            // is better not there at all.
+            (Self::Coarse, Effort::Fast) => RuleSet::coarse(Coarse::Apart),
+            (Self::Coarse, _) => RuleSet::coarse(Coarse::Among),
         }
     }
 }
@@ -104,9 +122,12 @@ pub struct Mesher {
     pub(crate) method: Method,
     pub(crate) bounds: Option<AngleBounds>,
     pub(crate) domain_radius: Option<f64>,
+    /// Centre of the domain, if it is not that of the points.
+    centre: Option<DVec2>,
+    pub(crate) size: Option<Size>,
     threads: Option<usize>,
     pub(crate) without_coarsening: bool,
-    effort: Effort,
+    pub(crate) effort: Effort,
     budget: Option<Duration>,
     pub(crate) graph: GraphOptions,
 }
@@ -119,8 +140,9 @@ pub struct Mesher {
 ///
 /// # Complexity
 ///
-/// Near-linear in the size of the mesh, which is about 120 triangles per point
-/// for evenly spread points; memory about 60 bytes per triangle.
+/// Near-linear in the number of points, about a millisecond each for evenly
+/// spread ones, of which nine triangles come; [`Method::Templates`] takes a
+/// thirtieth of the time for 120 triangles.
 ///
 /// # Examples
 ///
@@ -135,7 +157,7 @@ pub fn triangulate(points: &[DVec2]) -> Result<Triangulation, Error> {
 }
 
 impl Mesher {
-    /// The default options: templates, 43.9 to 90 degrees, the tightest domain,
+    /// The default options: compact, 43.9 to 90 degrees, the tightest domain,
     /// all threads.
     pub fn new() -> Self {
         Self::default()
@@ -163,8 +185,9 @@ impl Mesher {
     /// elsewhere.
     ///
     /// ```
-    /// # use hexdel::{AngleBounds, DVec2, Error, Mesher};
-    /// let mesher = Mesher::new().bounds(AngleBounds::new(48.0, 84.0)?);
+    /// # use hexdel::{AngleBounds, DVec2, Error, Mesher, Method};
+    /// let templates = Mesher::new().method(Method::Templates);
+    /// let mesher = templates.bounds(AngleBounds::new(48.0, 84.0)?);
     /// let refused = mesher.triangulate(&[DVec2::ZERO, DVec2::X]);
     /// assert!(matches!(refused, Err(Error::BoundsBeyondMethod { .. })));
     /// # Ok::<(), hexdel::geom::BoundsError>(())
@@ -190,6 +213,33 @@ impl Mesher {
     pub fn domain_radius(mut self, radius: f64) -> Self {
         self.domain_radius = Some(radius);
         self
+    }
+
+    /// How long edges may be, by default as long as the points allow. Every edge
+    /// keeps to it at both ends and its middle; for points only.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Size};
+    /// let size = Size::constant(0.1)?;
+    /// let made = Mesher::new().size(size).triangulate(&[DVec2::ZERO, DVec2::X])?;
+    /// assert!(made.size_ratio.is_some_and(|ratio| ratio < 1.0 + 1e-8));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn size(mut self, size: Size) -> Self {
+        self.size = Some(size);
+        self
+    }
+
+    /// The domain is a hexagon around this centre, whatever the points'.
+    pub(crate) fn around(mut self, centre: DVec2, radius: f64) -> Self {
+        (self.centre, self.domain_radius) = (Some(centre), Some(radius));
+        self
+    }
+
+    /// What a session keeps of the options.
+    pub(crate) fn for_session(&self) -> (Effort, Option<Size>) {
+        (self.effort, self.size.clone())
     }
 
     /// How many threads work, by default as many as the machine has. The mesh
@@ -229,9 +279,9 @@ impl Mesher {
     /// How hard [`Method::Compact`] tries; nothing to the other methods.
     ///
     /// ```
-    /// # use hexdel::{Effort, Mesher, Method, generate};
+    /// # use hexdel::{Effort, Mesher, generate};
     /// let points = generate::generate(generate::Kind::Uniform, 20, 1);
-    /// let compact = Mesher::new().method(Method::Compact);
+    /// let compact = Mesher::new();
     /// let fast = compact.clone().effort(Effort::Fast).triangulate(&points)?;
     /// let standard = compact.triangulate(&points)?;
     /// assert!(standard.mesh.triangles.len() < fast.mesh.triangles.len());
@@ -251,8 +301,8 @@ impl Mesher {
     /// # use hexdel::{DVec2, Mesher, Method};
     /// # use std::time::Duration;
     /// let points = [DVec2::ZERO, DVec2::X, DVec2::new(0.2, 0.7)];
-    /// let none = Mesher::new().method(Method::Compact).budget(Duration::ZERO).triangulate(&points)?;
-    /// let templates = Mesher::new().triangulate(&points)?;
+    /// let none = Mesher::new().budget(Duration::ZERO).triangulate(&points)?;
+    /// let templates = Mesher::new().method(Method::Templates).triangulate(&points)?;
     /// assert_eq!(none.mesh.triangles.len(), templates.mesh.triangles.len());
     /// # Ok::<(), hexdel::Error>(())
     /// ```
@@ -329,30 +379,36 @@ impl Mesher {
             return Err(Error::BoundsBeyondMethod { asked: bounds, kept });
         }
         let set = PointSet::new(points)?;
-        let placement = Placement::new(&set, self.domain_radius)?;
-        let starts = self.method.starts(self.budget);
+        let placement = Placement::around(&set, self.domain_radius, self.centre)?;
+        self.check_size(&placement)?;
         let mut again = Again::new(monitor);
-        for start in &starts[..starts.len() - 1] {
-            match self.from(*start, &set, &placement, points, bounds, &again) {
-                // What a coarse start does not reach, the next one may.
+        let mut best: Option<Error> = None;
+        for link in self.method.links(self.budget) {
+            match self.from(*link, &set, &placement, points, bounds, &again) {
+                Ok(made) => return Ok(made),
+                // What one start does not reach, the next one may.
                 Err(
-                    Error::Unreached { .. }
+                    error @ (Error::Unreached { .. }
                     | Error::NotCertified { .. }
                     | Error::Delaunay(_)
-                    | Error::Optimize(_),
+                    | Error::Size(SizeError::Unreached { .. })
+                    | Error::Optimize(_)),
                 ) => {
+                    if best.as_ref().is_none_or(|best| error.outside() < best.outside()) {
+                        best = Some(error);
+                    }
                     again.restart();
                 }
-                done => return done,
+                Err(error) => return Err(error),
             }
         }
-        self.from(starts[starts.len() - 1], &set, &placement, points, bounds, &again)
+        Err(best.expect("every method has a way to a mesh"))
     }
 
     /// Makes the mesh from one start.
     fn from(
         &self,
-        start: Start,
+        Link { start, optimize }: Link,
         set: &PointSet,
         placement: &Placement,
         points: &[DVec2],
@@ -360,8 +416,8 @@ impl Mesher {
         monitor: &dyn Monitor,
     ) -> Result<Triangulation, Error> {
         let began = Instant::now();
-        let mut refiner =
-            Refiner::new(placement.lattice, start.rules()).with_coarsening(!self.without_coarsening);
+        let mut refiner = Refiner::new(placement.lattice, start.rules(self.effort))
+            .with_coarsening(!self.without_coarsening);
         refiner
             .insert(set.sites(), monitor)
             .map_err(|error| Error::of_refinement(error, || placement::unresolved(set)))?;
@@ -369,28 +425,38 @@ impl Mesher {
 
         let relocation = start.relocation();
         let domain = placement.domain(refiner.grid(), relocation)?;
-        let occupants = refiner.occupants();
-        let mut dual = extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?;
+        let (mut dual, domain) = match &self.size {
+            Some(size) => Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?,
+            None => {
+                let occupants = refiner.occupants();
+                (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
+            }
+        };
         let mut ended = Ended { reached: true, spent: false };
-        if self.method == Method::Compact {
+        if optimize {
             let options = compact::options(bounds, self.effort, self.budget);
-            ended = compact::optimize_dual(&mut dual, &options, monitor)?;
+            ended = compact::optimize_dual(&mut dual, &options, self.size.as_ref(), monitor)?;
         }
         let extracted = Instant::now();
 
         check(monitor)?;
         let certificate = match self.finish(&mut dual, bounds, placement, points, monitor) {
-            Err(Error::NotCertified { mesh, certificate }) if !ended.reached => {
+            // Without optimisation the mesh is a last resort at any bounds.
+            Err(Error::NotCertified { mesh, certificate })
+                if !ended.reached || !optimize && self.method == Method::Compact =>
+            {
                 return Err(Error::Unreached { mesh, certificate });
             }
             done => done?,
         };
+        let size_ratio = self.size_ratio(&dual.mesh)?;
         let certified = Instant::now();
         let of_input = set.site_of_input().iter().map(|&site| dual.vertex_of_occupant[site as usize]);
         Ok(Triangulation {
             vertex_of_input: of_input.collect(),
             mesh: dual.mesh,
             certificate,
+            size_ratio,
             method: self.method,
             start,
             budget_spent: ended.spent,
@@ -404,6 +470,25 @@ impl Mesher {
             },
             refiner,
         })
+    }
+
+    /// Refuses sizes that coordinates do not resolve in the domain.
+    fn check_size(&self, placement: &Placement) -> Result<(), SizeError> {
+        let lattice = &placement.lattice;
+        let reach = lattice.origin().abs().max_element() + lattice.spacing(0);
+        self.size.as_ref().map_or(Ok(()), |s| s.check(placement::finest_spacing(DVec2::splat(reach))))
+    }
+
+    /// The longest edge over what is wanted.
+    fn size_ratio(&self, mesh: &TriMesh) -> Result<Option<f64>, SizeError> {
+        let Some(size) = &self.size else {
+            return Ok(None);
+        };
+        let (ratio, at, length) = sized::worst(mesh, size);
+        if ratio > 1.0 + SIZE_TOLERANCE {
+            return Err(SizeError::Unreached { at, length });
+        }
+        Ok(Some(ratio))
     }
 
     /// Makes the mesh exactly Delaunay and certifies it.
@@ -429,7 +514,7 @@ impl Mesher {
         let options = CertifyOptions {
             bounds,
             inputs: Some(points),
-            min_edge: placement.shortest_edge.filter(|_| !compact),
+            min_edge: placement.shortest_edge.filter(|_| !compact && self.size.is_none()),
             ..CertifyOptions::default()
         };
         let certificate = certify(&dual.mesh, &options);

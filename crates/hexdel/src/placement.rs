@@ -8,19 +8,19 @@
 
 use crate::error::Error;
 use hexdel_classify::{Domain, Relocation};
-use hexdel_geom::{ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
+use hexdel_geom::{Circle, ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
 use hexdel_grid::{Grid, Lattice};
 
 /// `3 + 2 / sqrt(3)`, rounded up: the largest distance, in spacings, of points
 /// in hexagons three steps apart.
-const CONFLICT_REACH: f64 = 4.154_700_539;
+pub(crate) const CONFLICT_REACH: f64 = 4.154_700_539;
 
 /// The paper's bound on the shortest edge over the distance of the closest
 /// pair (section 6.3): `sqrt(7) / (12 sqrt(3))`.
 const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
 
 /// Largest coordinate: predicates take products of four, and of differences.
-const MAX_COORDINATE: f64 = 1e70;
+pub(crate) const MAX_COORDINATE: f64 = 1e70;
 
 /// Spacings of the finest level that a coordinate's last place must fit into.
 /// An angle is then off by about `2^-15` radians, two thousandths of a degree,
@@ -49,14 +49,24 @@ pub(crate) struct Placement {
 }
 
 impl Placement {
-    /// Lays the grid around the sites' smallest enclosing circle.
-    pub(crate) fn new(points: &PointSet, radius: Option<f64>) -> Result<Self, Error> {
+    /// Lays the grid around a centre, by default that of the sites' smallest
+    /// enclosing circle.
+    pub(crate) fn around(
+        points: &PointSet,
+        radius: Option<f64>,
+        centre: Option<DVec2>,
+    ) -> Result<Self, Error> {
         check_range(points)?;
         if let Some(radius) = radius.filter(|r| !(r.is_finite() && *r > 0.0)) {
             return Err(Error::InvalidRadius { radius });
         }
         let sites = points.sites();
-        let circle = smallest_enclosing_circle(sites).expect("a point set holds at least one finite point");
+        let mut circle =
+            smallest_enclosing_circle(sites).expect("a point set holds at least one finite point");
+        if let Some(centre) = centre {
+            let reach = sites.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
+            circle = Circle { center: centre, radius: reach };
+        }
         let Some(pair) = closest_pair(sites) else {
             return Self::of_one(circle.center, radius);
         };
@@ -116,6 +126,13 @@ impl Placement {
     }
 }
 
+/// The corners of a regular hexagon, counter-clockwise from the east.
+pub(crate) fn corners(centre: DVec2, radius: f64) -> [DVec2; 6] {
+    let height = 0.5 * 3_f64.sqrt();
+    [(1.0, 0.0), (0.5, height), (-0.5, height), (-1.0, 0.0), (-0.5, -height), (0.5, -height)]
+        .map(|(x, y)| centre + radius * DVec2::new(x, y))
+}
+
 /// How many times `finest` must be doubled to reach `size`; at most 255.
 fn levels_between(size: f64, finest: f64) -> u8 {
     // A length leaves the range of numbers long before the count leaves its own.
@@ -157,7 +174,7 @@ fn check_range(points: &PointSet) -> Result<(), Error> {
 }
 
 /// The finest spacing that coordinates resolve at a point.
-fn finest_spacing(at: DVec2) -> f64 {
+pub(crate) fn finest_spacing(at: DVec2) -> f64 {
     at.abs().max_element() * f64::EPSILON * LAST_PLACES
 }
 
@@ -235,11 +252,12 @@ mod tests {
     #[test]
     fn a_domain_beyond_all_levels_is_named() {
         let points = PointSet::new(&[DVec2::ZERO, DVec2::X]).unwrap();
-        let Err(Error::DomainTooLarge { radius, most }) = Placement::new(&points, Some(1e100)) else {
+        let Err(Error::DomainTooLarge { radius, most }) = Placement::around(&points, Some(1e100), None)
+        else {
             panic!("1e100 is a large domain for points 1 apart");
         };
         assert!(radius == 1e100 && most < 1e100);
-        assert!(Placement::new(&points, Some(most)).is_ok());
+        assert!(Placement::around(&points, Some(most), None).is_ok());
     }
 
     #[test]

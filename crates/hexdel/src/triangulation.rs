@@ -15,6 +15,9 @@ pub struct Triangulation {
     pub vertex_of_input: Vec<VertexId>,
     /// What the mesh was found to keep.
     pub certificate: Certificate,
+    /// The longest edge over the length wanted there, if any was: at most 1 but
+    /// for [`SIZE_TOLERANCE`](hexdel_optimize::SIZE_TOLERANCE).
+    pub size_ratio: Option<f64>,
     /// How it was made.
     pub method: Method,
     /// The mesh of the grid that was the start: for [`Method::Compact`] the
@@ -69,6 +72,9 @@ pub struct Report<'a> {
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
+    /// The longest edge over the length wanted there, if any was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_ratio: Option<f64>,
     /// Levels used below the coarsest.
     pub max_level: u8,
     /// Circumradius of the domain, in input units.
@@ -101,6 +107,7 @@ impl Triangulation {
             },
             budget_spent: self.budget_spent,
             certificate: &self.certificate,
+            size_ratio: self.size_ratio,
             max_level: self.max_level,
             domain_radius: self.patch.radius,
             seconds: self.seconds,

@@ -13,7 +13,7 @@
 mod common;
 
 use common::{Fixture, METHODS};
-use hexdel::{Error, Mesher, Method, Triangulation, VertexId};
+use hexdel::{Error, Mesher, Method, PslgTriangulation, Triangulation, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -41,7 +41,9 @@ fn every_record_has_its_fixture() {
     let found: BTreeSet<String> = records.map(name).collect();
     let fixtures = common::fixtures();
     let expected = fixtures.iter().flat_map(|f| METHODS.map(|(_, m)| format!("{}-{m}.snap", f.name)));
-    assert_eq!(found, expected.collect());
+    let graphs = common::graphs();
+    let of_graphs = graphs.iter().map(|(name, _)| format!("graphs-{name}.snap"));
+    assert_eq!(found, expected.chain(of_graphs).collect());
 }
 
 /// The record would show any hash; this one is FNV-1a's.
@@ -51,11 +53,61 @@ fn the_hash_is_fnv_1a() {
     assert_eq!(fnv_1a(*b"foobar"), 0x8594_4171_f739_67e8);
 }
 
-fn hold_all(method: Method) {
+/// Every graph, with the default options.
+#[test]
+fn graphs() {
+    let _bound = settings().bind_to_scope();
+    for (name, graph) in common::graphs() {
+        let text = match hexdel::triangulate_pslg(&graph) {
+            Ok(made) => format!("fixtures/graphs/{name}.poly\n{}", of_graph(&made)),
+            Err(error) => {
+                assert!(matches!(error, Error::Segments(_) | Error::Pslg(_)), "{name}: {error}");
+                format!("fixtures/graphs/{name}.poly\nerror: {error}\n")
+            }
+        };
+        insta::assert_snapshot!(format!("graphs-{name}"), text);
+    }
+}
+
+fn of_graph(made: &PslgTriangulation) -> String {
+    let c = &made.certificate;
+    let mut text = String::new();
+    let split = made.edges_of_segment.iter().map(u32::to_string).collect::<Vec<_>>();
+    let lines = [
+        ("holds", made.holds().to_string()),
+        ("inputs", format!("{}, {} kept", c.inputs, c.inputs_kept)),
+        ("vertices", c.vertices.to_string()),
+        ("triangles", c.triangles.to_string()),
+        ("angles", format!("{:.6} to {:.6} degrees", c.min_angle_deg, c.max_angle_deg)),
+        ("delaunay", c.delaunay.to_string()),
+        ("boundary loops", c.boundary_loops.to_string()),
+        ("retries", made.retries.to_string()),
+        ("edges of segments", split.join(" ")),
+    ];
+    for (what, value) in lines {
+        let _ = writeln!(text, "{what}: {value}");
+    }
+    let report = made.report();
+    for (what, list) in [("exempt", &report.exempt), ("failed", &report.failed)] {
+        for entry in list {
+            let (min, max) = (entry.min_angle_deg, entry.max_angle_deg);
+            let _ =
+                writeln!(text, "{what}: {} {min:.6} to {max:.6} degrees {}", entry.triangle, entry.reason);
+        }
+    }
+    let _ = writeln!(text, "hash: {:016x}", hash(common::bits_of(&made.mesh)));
+    text
+}
+
+fn settings() -> insta::Settings {
     let mut settings = insta::Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
-    let _bound = settings.bind_to_scope();
+    settings
+}
+
+fn hold_all(method: Method) {
+    let _bound = settings().bind_to_scope();
     for fixture in common::fixtures() {
         let name = METHODS.into_iter().find(|(m, _)| *m == method).expect("both are listed").1;
         let result = Mesher::new().method(method).triangulate(&fixture.points);
@@ -128,10 +180,13 @@ fn summary(text: &mut String, made: &Triangulation) {
     for ((level, class), count) in counts {
         let _ = writeln!(text, "level {level}: {count} {class}");
     }
-    let (vertices, triangles) = common::bits(made);
+    let _ = writeln!(text, "hash: {:016x}", hash(common::bits(made)));
+}
+
+fn hash((vertices, triangles): common::Bits) -> u64 {
     let vertices = vertices.into_iter().flatten().flat_map(u64::to_le_bytes);
     let triangles = triangles.into_iter().flatten().flat_map(|v| (v as u32).to_le_bytes());
-    let _ = writeln!(text, "hash: {:016x}", fnv_1a(vertices.chain(triangles)));
+    fnv_1a(vertices.chain(triangles))
 }
 
 /// The hash of Fowler, Noll and Vo, 64 bits, variant 1a.

@@ -4,7 +4,10 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 mod check;
+mod convert;
 mod dual;
 mod generate;
+mod graph;
 mod mesh;
+mod plot;
 mod support;

@@ -84,7 +84,8 @@ impl Topology {
     }
 
     fn edge(&mut self, view: &View<'_>, quad: [u32; 4], cap: usize) {
-        let [a, b, c, d] = quad.map(|v| view.at(v as usize));
+        let at = |i: usize| view.at(quad[i] as usize);
+        let [a, b, c, d] = [at(0), at(1), at(2), at(3)];
         if locally_delaunay(a, b, c, d) {
             return;
         }

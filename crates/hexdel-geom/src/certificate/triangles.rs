@@ -111,7 +111,8 @@ impl Part {
         for (i, &corners) in triangles.iter().enumerate() {
             let triangle = TriangleId::new(first + i);
             if well_formed(corners, n) {
-                part.shape(view, limits, triangle, corners.map(|v| view.at(v.index())));
+                let at = |i: usize| view.at(corners[i].index());
+                part.shape(view, limits, triangle, [at(0), at(1), at(2)]);
             } else {
                 part.shapes.malformed += 1;
                 note(&mut part.shapes.violations, limits.max_violations, || {

@@ -6,6 +6,8 @@
 //! and shapes; the first one whose neighbourhood settles is taken. Where none
 //! does, the best few are handed to the search that repairs whole meshes.
 
+use std::sync::Arc;
+
 use hexdel_geom::{DVec2, orient2d};
 
 use crate::angles::{Measure, Place};
@@ -16,18 +18,28 @@ use crate::live::cut::Cut;
 use crate::mesh::{Mesh, Motion, NONE};
 use crate::refill::{Refills, degree_cost};
 use crate::repair::{repair, step};
+use crate::sizing::Sizing;
 use crate::work::Work;
 
 /// What all work on parts shares.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Tools {
     pub(crate) rules: Rules<'static>,
     pub(crate) refills: Refills,
+    /// How long edges may be.
+    pub(crate) sizing: Option<Arc<dyn Sizing>>,
 }
 
 impl Tools {
-    /// Work on a part.
-    pub(crate) fn work(&self, mesh: Mesh, mut failed: Vec<u8>) -> Work<'_> {
+    /// Work on a part that keeps edges as short as wanted.
+    pub(crate) fn work(&self, mesh: Mesh, failed: Vec<u8>) -> Work<'_> {
+        let mut work = self.free_work(mesh, failed);
+        work.sizing = self.sizing.as_deref();
+        work
+    }
+
+    /// Work on a part in which edges may be of any length.
+    pub(crate) fn free_work(&self, mesh: Mesh, mut failed: Vec<u8>) -> Work<'_> {
         failed.resize(mesh.pos.len(), 0);
         Work::new(mesh, &self.rules, &self.refills, failed, 0)
     }

@@ -11,6 +11,8 @@
 //! | `cut` | parts cut out and put back |
 //! | `insert` | a new fixed vertex |
 //! | `refine` | triangles cut in four |
+//! | `size` | edges made as short as wanted |
+//! | `save` | the state as data |
 //! | `thin` | removal of what has become superfluous |
 //! | `verify` | what has changed, held against the certificate |
 //!
@@ -20,17 +22,20 @@ mod cut;
 mod insert;
 mod locate;
 mod refine;
+mod save;
+mod size;
 mod store;
 mod thin;
 mod verify;
 
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::constraints::Rules;
 use crate::error::OptimizeError;
 use crate::import::import;
-use crate::mesh::Motion;
+use crate::mesh::{Motion, NONE};
 use crate::options::VertexKind;
 use crate::refill::Refills;
 use cut::{Cut, rings};
@@ -38,6 +43,8 @@ use insert::Tools;
 use locate::Memory;
 use store::{Serials, Store, Undo, Vertex};
 use verify::Written;
+
+pub use save::{LiveState, StateError};
 
 /// Why a change of a [`LiveMesh`] was not made. The mesh is as it was.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -52,8 +59,24 @@ pub enum LiveError {
     /// There is a fixed vertex at the point already.
     #[error("there is a fixed vertex at ({:?}, {:?}) already", at.x, at.y)]
     Occupied {
+        /// Its slot.
+        slot: u32,
         /// The point.
         at: DVec2,
+    },
+    /// Edges at a place cannot be made as short as wanted within the bounds.
+    #[error("edges at ({:?}, {:?}) cannot be made shorter than {length:e}", at.x, at.y)]
+    Unsized {
+        /// The middle of an edge that is too long.
+        at: DVec2,
+        /// Its length.
+        length: f64,
+    },
+    /// Edges as short as wanted would take too many triangles.
+    #[error("edges this short would take about {triangles:.1e} triangles")]
+    TooMany {
+        /// How many.
+        triangles: f64,
     },
     /// No change nearby makes room for the point within the bounds.
     #[error("no change nearby makes room for ({:?}, {:?}) within the bounds", at.x, at.y)]
@@ -65,7 +88,7 @@ pub enum LiveError {
 
 /// What a change did to the mesh, by serial numbers, which are never used
 /// again. Ascending.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Delta {
     /// Vertices that are gone.
@@ -99,17 +122,25 @@ pub struct Snapshot {
 }
 
 /// The mesh.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct LiveMesh {
     store: Store,
     memory: Memory,
     tools: Tools,
     bounds: AngleBounds,
+    /// Serial numbers given out when the last step ended.
+    issued: Serials,
+    /// Whether the serial numbers have been in use by a mesh that this one
+    /// replaced.
+    adopted: bool,
 }
 
 /// Rings of triangles around a change that are cut out with it: four of them
 /// move, the last one stays.
 const RINGS: usize = 5;
+
+/// Sine of the turn up to which a rim goes straight on, as for a whole outline.
+const STRAIGHT: f64 = 1e-3;
 
 /// Rings that are refined where a point finds no room, in the order of trying:
 /// one is enough in nine of ten cases.
@@ -140,8 +171,8 @@ impl LiveMesh {
     }
 
     fn of(store: Store, bounds: AngleBounds) -> Self {
-        let tools = Tools { rules: Rules::new(bounds, None), refills: Refills::new() };
-        Self { memory: Memory::new(&store), store, tools, bounds }
+        let tools = Tools { rules: Rules::new(bounds, None), refills: Refills::new(), sizing: None };
+        Self { memory: Memory::new(&store), issued: store.serials, store, tools, bounds, adopted: false }
     }
 
     /// Numbers of vertices and triangles.
@@ -220,7 +251,7 @@ impl LiveMesh {
     fn pin(&mut self, v: u32, p: DVec2) -> Result<u32, LiveError> {
         let old = *self.store.vertex(v);
         if old.motion == Motion::Fixed {
-            return Err(LiveError::Occupied { at: p });
+            return Err(LiveError::Occupied { slot: v, at: p });
         }
         self.store.write_vertex(v, Vertex { at: p, motion: Motion::Fixed, ..old });
         Ok(v)
@@ -250,7 +281,8 @@ impl LiveMesh {
         if cut.keeps_disk(&work.mesh) {
             let v = cut.put_back(&mut self.store, &work.mesh, &work.failed)[vertex as usize];
             thin::thin(&mut self.store, &self.tools, v, p);
-            if verify::settle_changes(&mut self.store, mark, self.bounds) {
+            if self.shorten(mark, false).is_ok() && verify::settle_changes(&mut self.store, mark, self.bounds)
+            {
                 return Some(v);
             }
         }
@@ -259,7 +291,8 @@ impl LiveMesh {
     }
 
     /// Gives a fixed vertex free, and removes what has become superfluous
-    /// around it, most of the time with the vertex itself.
+    /// around it, most of the time with the vertex itself. A corner of the
+    /// domain stays.
     ///
     /// # Panics
     ///
@@ -267,7 +300,10 @@ impl LiveMesh {
     pub fn release(&mut self, slot: u32) {
         let old = *self.store.vertex(slot);
         assert!(old.alive(), "no vertex in slot {slot}");
-        self.store.write_vertex(slot, Vertex { motion: Motion::Free, failed: 0, ..old });
+        let Some((motion, sector)) = self.freedom(slot) else {
+            return;
+        };
+        self.store.write_vertex(slot, Vertex { motion, sector, failed: 0, ..old });
         let (mark, serials) = (self.store.mark(), self.store.serials);
         thin::thin(&mut self.store, &self.tools, slot, old.at);
         if !verify::settle_changes(&mut self.store, mark, self.bounds) {
@@ -275,25 +311,127 @@ impl LiveMesh {
         }
     }
 
+    /// What a vertex may do that is not fixed, and the angle of the domain
+    /// there; none for a corner.
+    fn freedom(&self, slot: u32) -> Option<(Motion, f64)> {
+        let (mut first, mut last) = (NONE, NONE);
+        self.store.around(slot, |t| {
+            let tri = self.store.triangle(t);
+            let k = tri.corner(slot);
+            if tri.n[(k + 2) % 3] == NONE {
+                first = tri.v[(k + 1) % 3];
+            }
+            if tri.n[(k + 1) % 3] == NONE {
+                last = tri.v[(k + 2) % 3];
+            }
+        });
+        if first == NONE {
+            return Some((Motion::Free, std::f64::consts::TAU));
+        }
+        let along = (self.store.at(first) - self.store.at(last)).normalize_or_zero();
+        let here = (self.store.at(first) - self.store.at(slot)).normalize_or_zero();
+        let straight = along.perp_dot(here).abs() < STRAIGHT;
+        straight.then_some((Motion::Along(along), std::f64::consts::PI))
+    }
+
+    /// The bounds that every angle keeps.
+    pub fn bounds(&self) -> AngleBounds {
+        self.bounds
+    }
+
+    /// Whether there is a fixed vertex in a slot.
+    pub fn is_fixed(&self, slot: u32) -> bool {
+        let vertex = self.store.vertices.get(slot as usize);
+        vertex.is_some_and(|v| v.alive() && v.motion == Motion::Fixed)
+    }
+
+    /// The fixed vertex nearest to `p` and its distance, among those within two
+    /// rings of triangles: if there is none, none is close.
+    pub fn nearest_fixed(&mut self, p: DVec2) -> Option<(u32, f64)> {
+        let t = self.locate(p).ok()?;
+        let near = rings(&self.store, &[t], 2);
+        let fixed = near.into_iter().flat_map(|t| self.store.triangle(t).v).filter(|&v| self.is_fixed(v));
+        fixed
+            .map(|v| (v, self.store.at(v).distance(p)))
+            .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+    }
+
+    /// Length of the longest edge of triangles that may touch an axis-parallel
+    /// box.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn longest_edge_in(&self, low: DVec2, high: DVec2) -> f64 {
+        let mut longest: f64 = 0.0;
+        for t in self.store.live_triangles() {
+            let [a, b, c] = self.store.corners(t);
+            let (from, to) = (a.min(b).min(c), a.max(b).max(c));
+            if from.cmple(high).all() && to.cmpge(low).all() {
+                longest = longest.max(a.distance(b)).max(b.distance(c)).max(c.distance(a));
+            }
+        }
+        longest
+    }
+
     /// What was done since the last step, as one step.
     pub fn take_step(&mut self) -> (Step, Delta) {
-        let delta = self.delta();
+        let delta = self.delta(&Written::of(self.store.since(0)));
+        self.issued = self.store.serials;
         (Step(self.store.take_journal()), delta)
     }
 
-    /// Takes back what was done since the last step. Serial numbers given out
-    /// since are not given out again.
+    /// Takes back what was done since the last step.
     pub fn abandon(&mut self) {
-        self.store.rollback(0);
+        self.reset(0, self.issued);
     }
 
-    /// Takes back the last step that is not taken back yet.
-    pub fn undo(&mut self, step: &Step) {
+    /// Takes back the last step that is not taken back yet. Serial numbers
+    /// given out since are not given out again.
+    pub fn undo(&mut self, step: &Step) -> Delta {
+        let written = Written::of(&step.0).now(&self.store);
         self.store.play_back(&step.0);
+        self.delta(&written)
     }
 
-    fn delta(&self) -> Delta {
-        let written = Written::of(self.store.since(0));
+    /// Puts another mesh in the place of this one, whose serial numbers go on
+    /// from here but for what both have.
+    pub fn replace_by(&mut self, mut other: Self) -> (Self, Delta) {
+        let serials = self.store.serials;
+        if !other.adopted {
+            other.store.renumber(serials);
+        }
+        other.store.serials = other.store.serials.max(serials);
+        other.issued = other.store.serials;
+        other.adopted = true;
+        let mut old = std::mem::replace(self, other);
+        old.adopted = true;
+        let delta = self.delta_from(&old);
+        (old, delta)
+    }
+
+    /// The difference of all of another mesh and this one.
+    fn delta_from(&self, old: &Self) -> Delta {
+        let (was, is) = (old.snapshot(), self.snapshot());
+        let corners = |t: [VertexId; 3]| t.map(|v| is.vertex_serials[v.index()]);
+        let mut delta = Delta {
+            vertices_removed: was.vertex_serials,
+            vertices_added: is.vertex_serials.iter().copied().zip(is.mesh.vertices).collect(),
+            triangles_removed: was.triangle_serials,
+            triangles_added: is
+                .triangle_serials
+                .iter()
+                .copied()
+                .zip(is.mesh.triangles.iter().map(|t| corners(*t)))
+                .collect(),
+            ..Delta::default()
+        };
+        delta.sort();
+        delta
+    }
+
+    /// The difference of what was in slots and what is.
+    fn delta(&self, written: &Written) -> Delta {
         let mut delta = Delta::default();
         for &(v, serial, at) in &written.vertices {
             let now = self.store.vertices.get(v as usize).filter(|now| now.alive());
@@ -314,11 +452,17 @@ impl LiveMesh {
                 delta.triangles_removed.extend((serial != 0).then_some(serial));
             }
         }
-        delta.vertices_removed.sort_unstable();
-        delta.vertices_added.sort_unstable_by_key(|v| v.0);
-        delta.vertices_moved.sort_unstable_by_key(|v| v.0);
-        delta.triangles_removed.sort_unstable();
-        delta.triangles_added.sort_unstable_by_key(|t| t.0);
+        delta.sort();
         delta
+    }
+}
+
+impl Delta {
+    fn sort(&mut self) {
+        self.vertices_removed.sort_unstable();
+        self.vertices_added.sort_unstable_by_key(|v| v.0);
+        self.vertices_moved.sort_unstable_by_key(|v| v.0);
+        self.triangles_removed.sort_unstable();
+        self.triangles_added.sort_unstable_by_key(|t| t.0);
     }
 }

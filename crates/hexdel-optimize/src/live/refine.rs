@@ -17,7 +17,7 @@ use crate::work::Work;
 /// The part with the triangles that `inner` marks cut in four and all angles
 /// within the bounds again; none where that is not reached.
 pub(crate) fn refine<'a>(cut: &Cut, tools: &'a Tools, inner: &[bool]) -> Option<Work<'a>> {
-    let mut work = tools.work(cut_in_four(cut, inner)?, cut.failed.clone());
+    let mut work = tools.free_work(cut_in_four(cut, inner)?, cut.failed.clone());
     repair_rounds(&mut work).then_some(work)
 }
 

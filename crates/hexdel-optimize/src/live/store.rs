@@ -23,7 +23,7 @@ pub(crate) struct Vertex {
 }
 
 impl Vertex {
-    const FREE: Self =
+    pub(crate) const FREE: Self =
         Self { at: DVec2::ZERO, motion: Motion::Free, sector: 0.0, anchor: NONE, failed: 0, serial: 0 };
 
     pub(crate) fn alive(&self) -> bool {
@@ -42,7 +42,7 @@ pub(crate) struct Triangle {
 }
 
 impl Triangle {
-    const FREE: Self = Self { v: [NONE; 3], n: [NONE; 3], serial: 0 };
+    pub(crate) const FREE: Self = Self { v: [NONE; 3], n: [NONE; 3], serial: 0 };
 
     pub(crate) fn alive(&self) -> bool {
         self.serial != 0
@@ -87,7 +87,39 @@ pub(crate) struct Store {
     journal: Vec<Undo>,
 }
 
+impl Serials {
+    /// The later ones of both.
+    pub(crate) fn max(self, other: Self) -> Self {
+        Self { vertex: self.vertex.max(other.vertex), triangle: self.triangle.max(other.triangle) }
+    }
+}
+
 impl Store {
+    /// Gives all that is there new serial numbers, after `last`.
+    pub(crate) fn renumber(&mut self, last: Serials) {
+        self.serials = last;
+        for v in self.vertices.iter_mut().filter(|v| v.alive()) {
+            self.serials.vertex += 1;
+            v.serial = self.serials.vertex;
+        }
+        for t in self.triangles.iter_mut().filter(|t| t.alive()) {
+            self.serials.triangle += 1;
+            t.serial = self.serials.triangle;
+        }
+    }
+
+    /// Slots with an empty journal; `free` holds those of vertices and those of
+    /// triangles.
+    pub(crate) fn of(
+        vertices: Vec<Vertex>,
+        triangles: Vec<Triangle>,
+        free: [Vec<u32>; 2],
+        serials: Serials,
+    ) -> Self {
+        let [free_vertices, free_triangles] = free;
+        Self { vertices, triangles, free_vertices, free_triangles, serials, journal: Vec::new() }
+    }
+
     pub(crate) fn vertex(&self, v: u32) -> &Vertex {
         &self.vertices[v as usize]
     }

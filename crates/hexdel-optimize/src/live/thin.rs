@@ -6,7 +6,8 @@ use hexdel_geom::DVec2;
 use crate::decimate::{Pass, decimate};
 use crate::live::cut::{Cut, rings};
 use crate::live::insert::Tools;
-use crate::live::store::Store;
+use crate::live::store::{Store, Vertex};
+use crate::mesh::Motion;
 
 /// Passes over one part, as in batches; what has failed before and has nothing
 /// new around is not tried again. A pass of four rings takes half as long
@@ -37,6 +38,17 @@ pub(crate) fn thin(store: &mut Store, tools: &Tools, mut at: u32, p: DVec2) {
         }
         if !store.vertex(at).alive() {
             at = nearest(store, &cut, p).unwrap_or(at);
+        }
+    }
+}
+
+/// Removes vertices wherever that was not tried since `failed` was last
+/// cleared, among the slots given.
+pub(crate) fn thin_all(store: &mut Store, tools: &Tools, slots: &[u32]) {
+    for &v in slots {
+        let waits = |v: &Vertex| v.alive() && v.failed == 0 && matches!(v.motion, Motion::Free);
+        if store.vertices.get(v as usize).is_some_and(waits) {
+            thin(store, tools, v, store.at(v));
         }
     }
 }

@@ -36,6 +36,20 @@ impl Written {
         Self { vertices, triangles }
     }
 
+    /// The same slots with what they hold now.
+    pub(crate) fn now(self, store: &Store) -> Self {
+        let vertex = |(v, _, _): (u32, u64, DVec2)| {
+            store.vertices.get(v as usize).map_or((v, 0, DVec2::ZERO), |now| (v, now.serial, now.at))
+        };
+        let triangle = |(t, _, _): (u32, u64, [u32; 3])| {
+            store.triangles.get(t as usize).map_or((t, 0, [NONE; 3]), |now| (t, now.serial, now.v))
+        };
+        Self {
+            vertices: self.vertices.into_iter().map(vertex).collect(),
+            triangles: self.triangles.into_iter().map(triangle).collect(),
+        }
+    }
+
     /// Live triangles that are new or have a corner that moved, ascending.
     pub(crate) fn changed(&self, store: &Store) -> Vec<u32> {
         let is_new = |&&(t, serial, _): &&(u32, u64, [u32; 3])| {

@@ -232,10 +232,9 @@ pub fn rays(n: u32, seed: u64) -> Pslg {
 }
 
 /// A closed curve of `6 * 2^k` segments, at least `least`: a hexagon whose sides
-/// are divided again and again, each middle moved across by 5 to 15 per cent of
-/// the length. A side and all that comes of it stay in a rhombus whose angle at
-/// the ends is less than 36 degrees to either side; the curve does not cross
-/// itself.
+/// are divided again and again, each middle moved across by 4 to 11 per cent of
+/// the length. A side and all that comes of it stay in a rhombus whose height to
+/// either side is a quarter of the side, so that the curve does not cross itself.
 pub fn coastline(least: usize, seed: u64) -> Pslg {
     let mut random = Random::new(seed);
     let mut points: Vec<DVec2> = (0..6).map(|i| DVec2::from_angle(f64::from(i) * TAU / 6.0)).collect();
@@ -244,7 +243,7 @@ pub fn coastline(least: usize, seed: u64) -> Pslg {
         points = (0..n)
             .flat_map(|i| {
                 let (a, b) = (points[i], points[(i + 1) % n]);
-                let across = random.within(0.05, 0.15) * if random.below(2) == 0 { 1.0 } else { -1.0 };
+                let across = random.within(0.04, 0.11) * if random.below(2) == 0 { 1.0 } else { -1.0 };
                 [a, a.midpoint(b) + (b - a).perp() * across]
             })
             .collect();

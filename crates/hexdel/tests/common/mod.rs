@@ -4,7 +4,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use hexdel::geom::{CertifyOptions, certify};
-use hexdel::{DVec2, Method, Triangulation, VertexId};
+use hexdel::{DVec2, Method, Pslg, TriMesh, Triangulation, VertexId};
 use std::path::{Path, PathBuf};
 
 /// Both methods, with the names they have in snapshots.
@@ -47,6 +47,21 @@ pub(crate) fn fixtures() -> Vec<Fixture> {
 pub(crate) fn points(name: &str) -> Vec<DVec2> {
     let path = root().join("fixtures/points").join(name).with_extension("node");
     hexdel::io::read_points(path).unwrap().points
+}
+
+/// The graph `fixtures/graphs/<name>.poly`.
+pub(crate) fn graph(name: &str) -> Pslg {
+    let path = root().join("fixtures/graphs").join(name).with_extension("poly");
+    hexdel::io::read_points(path).unwrap()
+}
+
+/// All graphs with their names, in their order.
+pub(crate) fn graphs() -> Vec<(String, Pslg)> {
+    let entries = std::fs::read_dir(root().join("fixtures/graphs")).unwrap();
+    let names = entries.map(|e| e.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names.into_iter().map(|name| (name.clone(), graph(&name))).collect()
 }
 
 fn in_folder(folder: &str) -> Vec<Fixture> {
@@ -100,9 +115,17 @@ pub(crate) fn hold(made: &Triangulation, points: &[DVec2]) {
     }
 }
 
+/// Coordinates and corners.
+pub(crate) type Bits = (Vec<[u64; 2]>, Vec<[usize; 3]>);
+
 /// The bits of a mesh: equal exactly for equal bytes.
-pub(crate) fn bits(made: &Triangulation) -> (Vec<[u64; 2]>, Vec<[usize; 3]>) {
-    let vertices = made.mesh.vertices.iter().map(|v| [v.x.to_bits(), v.y.to_bits()]).collect();
-    let triangles = made.mesh.triangles.iter().map(|t| t.map(VertexId::index)).collect();
+pub(crate) fn bits(made: &Triangulation) -> Bits {
+    bits_of(&made.mesh)
+}
+
+/// The same of a mesh alone.
+pub(crate) fn bits_of(mesh: &TriMesh) -> Bits {
+    let vertices = mesh.vertices.iter().map(|v| [v.x.to_bits(), v.y.to_bits()]).collect();
+    let triangles = mesh.triangles.iter().map(|t| t.map(VertexId::index)).collect();
     (vertices, triangles)
 }

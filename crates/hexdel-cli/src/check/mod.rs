@@ -1,7 +1,9 @@
 //! `hexdel check`: what can be said of a mesh, whoever made it.
 
+mod graph;
+
 use crate::exit::{Outcome, Verdict, print};
-use crate::input::read_points;
+use graph::OfGraph;
 use hexdel::geom::certificate::Violation;
 use hexdel::geom::{CertifyOptions, certify};
 use hexdel::{AngleBounds, Certificate, DVec2};
@@ -12,23 +14,26 @@ use std::path::PathBuf;
 /// Violations that are shown to a reader; JSON has the first hundred.
 const SHOWN: usize = 10;
 
-/// Check a mesh: angles, Delaunay, topology, input points
+/// Check a mesh: angles, Delaunay, topology, input points and segments
 #[derive(clap::Args)]
 #[command(after_help = "\
     The default bounds are those of `hexdel mesh`. The Delaunay property and\n\
     orientations are decided exactly. Exits with 1 if the mesh does not hold.\n\n\
+    With segments in the input each must be a union of edges, unless it lies in\n\
+    a hole or outside; corners narrower than the smallest angle are exempt; holes\n\
+    may be where they like.\n\n\
     Examples:\n  \
-    hexdel check mesh.ele --input points.node\n  \
+    hexdel check mesh.ele --input letters.poly\n  \
     hexdel check mesh.ele --min-angle 20 --max-angle 140 --json")]
 pub(crate) struct Args {
-    /// Mesh: .ele or .node (each with the other beside it), or .ron
+    /// Mesh, in any format that is read, such as .ele (with its .node), .vtu or .msh
     mesh: PathBuf,
-    /// File of points that must be vertices, bit for bit
+    /// File of points that must be vertices, bit for bit, and of segments
     #[arg(long)]
     input: Option<PathBuf>,
-    /// The smallest angle allowed, degrees
-    #[arg(long, value_name = "A", default_value_t = AngleBounds::EXTENDED.min_deg(), allow_negative_numbers = true)]
-    min_angle: f64,
+    /// The smallest angle allowed, degrees [default: 43.8978, with segments 30]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    min_angle: Option<f64>,
     /// The largest angle allowed, degrees
     #[arg(long, value_name = "B", default_value_t = AngleBounds::EXTENDED.max_deg(), allow_negative_numbers = true)]
     max_angle: f64,
@@ -43,30 +48,49 @@ struct Findings<'a> {
     holds: bool,
     #[serde(flatten)]
     certificate: &'a Certificate,
+    #[serde(flatten)]
+    of_graph: Option<&'a OfGraph>,
 }
+
+/// The smallest angle where there are segments.
+const LEAST_WITH_SEGMENTS: f64 = 30.0;
+
+/// Violations that JSON has.
+const LISTED: usize = 100;
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
-    let bounds = AngleBounds::new(args.min_angle, args.max_angle)?;
-    let inputs: Option<Vec<DVec2>> = args.input.as_deref().map(read_points).transpose()?;
+    let input = args.input.as_deref().map(hexdel_io::read_points).transpose()?;
     let mesh = hexdel_io::read_mesh(&args.mesh)?;
-    let options = CertifyOptions { bounds, inputs: inputs.as_deref(), ..CertifyOptions::default() };
-    let certificate = certify(&mesh, &options);
+    let graph = input.as_ref().filter(|input| !input.segments.is_empty());
+    let usual = if graph.is_some() { LEAST_WITH_SEGMENTS } else { AngleBounds::EXTENDED.min_deg() };
+    let options = CertifyOptions {
+        bounds: AngleBounds::new(args.min_angle.unwrap_or(usual), args.max_angle)?,
+        inputs: input.as_ref().map(|input| input.points.as_slice()),
+        require_disk: graph.is_none(),
+        // Which of them are exempt remains to be seen.
+        max_violations: if graph.is_some() { usize::MAX } else { LISTED },
+        ..CertifyOptions::default()
+    };
+    let mut certificate = certify(&mesh, &options);
+    let of_graph = graph.map(|graph| OfGraph::new(&mesh, graph, &mut certificate));
+    certificate.violations.truncate(LISTED);
     // An empty mesh has no fault, but is no disk: it does not hold.
-    let holds = certificate.holds();
+    let holds = of_graph.as_ref().map_or(certificate.holds(), |of_graph| of_graph.holds(&certificate));
     let text = if args.json {
-        serde_json::to_string_pretty(&Findings { holds, certificate: &certificate })? + "\n"
+        let findings = Findings { holds, certificate: &certificate, of_graph: of_graph.as_ref() };
+        serde_json::to_string_pretty(&findings)? + "\n"
     } else {
-        readable(&args.mesh.display().to_string(), &certificate)
+        readable(&args.mesh.display().to_string(), &certificate, of_graph.as_ref(), holds)
     };
     print(&text)?;
     Ok(if holds { Verdict::Holds } else { Verdict::Fails })
 }
 
 /// One line per finding, then the first violations.
-fn readable(name: &str, c: &Certificate) -> String {
+fn readable(name: &str, c: &Certificate, of_graph: Option<&OfGraph>, holds: bool) -> String {
     let mut text = format!("{name}: {} vertices, {} triangles\n", c.vertices, c.triangles);
-    for (good, finding) in findings(c) {
+    for (good, finding) in findings(c, of_graph) {
         // Writing to a string does not fail.
         let _ = writeln!(text, "  {}  {finding}", if good { "ok  " } else { "FAIL" });
     }
@@ -75,18 +99,20 @@ fn readable(name: &str, c: &Certificate) -> String {
         "        shortest edge {}, largest aspect ratio {:.4}",
         c.shortest_edge, c.max_aspect_ratio
     );
-    for violation in c.violations.iter().take(SHOWN) {
-        let _ = writeln!(text, "  - {}", describe(violation));
+    let mut violations: Vec<String> = c.violations.iter().map(describe).collect();
+    violations.extend(of_graph.iter().flat_map(|of_graph| of_graph.describe()));
+    for violation in violations.iter().take(SHOWN) {
+        let _ = writeln!(text, "  - {violation}");
     }
-    if c.violations.len() > SHOWN {
+    if violations.len() > SHOWN {
         let _ = writeln!(text, "  - and more");
     }
-    let _ = writeln!(text, "{}", if c.holds() { "holds" } else { "does not hold" });
+    let _ = writeln!(text, "{}", if holds { "holds" } else { "does not hold" });
     text
 }
 
 /// What was asked for, each with whether it is so.
-fn findings(c: &Certificate) -> Vec<(bool, String)> {
+fn findings(c: &Certificate, of_graph: Option<&OfGraph>) -> Vec<(bool, String)> {
     let broken = c.malformed + c.not_finite + c.not_counter_clockwise;
     // A triangle the wrong way round has negative angles.
     let beyond = c.out_of_bounds + c.not_counter_clockwise;
@@ -104,23 +130,11 @@ fn findings(c: &Certificate) -> Vec<(bool, String)> {
             format!("{broken} triangles flat, clockwise or broken"),
         ),
         finding(c.delaunay, "Delaunay", format!("not Delaunay: {} edges", c.non_delaunay_edges)),
-        finding(
-            c.manifold,
-            "manifold",
-            format!(
-                "not manifold: {} edges repeated, {} vertices branching, {} unused",
-                c.repeated_edges, c.branching_vertices, c.unused_vertices
-            ),
-        ),
-        finding(
-            c.disk,
-            "one disk",
-            format!(
-                "not one disk: {} boundary loops, Euler characteristic {}",
-                c.boundary_loops, c.euler_characteristic
-            ),
-        ),
     ];
+    match of_graph {
+        Some(of_graph) => findings.extend(of_graph.findings(c)),
+        None => findings.extend(topology(c)),
+    }
     if c.rounding_limited > 0 {
         let excess = c.worst_rounding_excess_deg;
         let n = c.rounding_limited;
@@ -134,6 +148,19 @@ fn findings(c: &Certificate) -> Vec<(bool, String)> {
         findings.push((kept, format!("{} of {} input points are vertices", c.inputs_kept, c.inputs)));
     }
     findings
+}
+
+/// Whether the mesh is one disk.
+fn topology(c: &Certificate) -> [(bool, String); 2] {
+    let manifold = format!(
+        "not manifold: {} edges repeated, {} vertices branching, {} unused",
+        c.repeated_edges, c.branching_vertices, c.unused_vertices
+    );
+    let disk = format!(
+        "not one disk: {} boundary loops, Euler characteristic {}",
+        c.boundary_loops, c.euler_characteristic
+    );
+    [finding(c.manifold, "manifold", manifold), finding(c.disk, "one disk", disk)]
 }
 
 fn finding(good: bool, yes: impl Into<String>, no: impl Into<String>) -> (bool, String) {

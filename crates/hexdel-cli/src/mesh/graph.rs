@@ -1,0 +1,147 @@
+//! Graphs of points and segments, and points in other domains than a hexagon.
+
+use super::{Args, PslgName, limited, write};
+use crate::exit::{Outcome, Verdict, print, warn};
+use crate::outputs::Outputs;
+use crate::progress::Progress;
+use hexdel::geom::BoundsError;
+use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
+use hexdel_io::{MarkedEdge, MeshView};
+use std::fmt::{Display, Write as _};
+
+/// Items of a list that are shown; the report has all.
+const SHOWN: usize = 10;
+
+/// Meshes a graph, writes the mesh and says what it is like.
+pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
+    let mesher = mesher(args)?;
+    if args.grid {
+        warn("--grid: the hexagons behind the mesh of a graph are not shown");
+    }
+    let progress = Progress::new(args.quiet);
+    let made = mesher.triangulate_pslg_watched(input, &progress);
+    progress.finish();
+    let made = made.map_err(|source| args.failure(source))?;
+
+    let report = made.report();
+    let inputs = made.input_of_vertex();
+    let regions = (!made.graph.regions.is_empty()).then(|| made.region_attributes());
+    let edges: Vec<MarkedEdge> =
+        made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
+    let mut view = MeshView::new(&made.mesh)
+        .with_input_indices(&inputs)
+        .with_vertex_markers(&made.vertex_markers)
+        .with_marked_edges(&edges)
+        .with_certificate(&made.certificate)
+        .with_picture(args.picture.picture(made.certificate.bounds));
+    if let Some(regions) = &regions {
+        view = view.with_regions(regions);
+    }
+    write(outputs, &view, &report)?;
+    if !args.quiet {
+        print(&summary(&made, &report))?;
+    }
+    if !made.holds() {
+        warn(&format!("{}: the mesh does not keep what was asked for", args.input.display()));
+    }
+    Ok(if made.holds() { Verdict::Holds } else { Verdict::Fails })
+}
+
+fn mesher(args: &Args) -> Result<Mesher, BoundsError> {
+    let mut mesher = args.mesher();
+    if args.min_angle.is_some() || args.max_angle.is_some() {
+        let usual = AngleBounds::new(30.0, 90.0)?;
+        mesher = mesher.bounds(args.bounds(AngleBounds::EXTENDED)?).near_bounds(args.bounds(usual)?);
+    }
+    if let Some(domain) = args.domain() {
+        mesher = mesher.domain(domain);
+    }
+    if let Some(area) = args.max_area {
+        mesher = mesher.max_area(area);
+    }
+    if let Some(way) = args.pslg {
+        mesher = mesher.segment_method(match way {
+            PslgName::Conform => SegmentMethod::Conform,
+            PslgName::Paper => SegmentMethod::Paper,
+        });
+    }
+    Ok(match args.repair {
+        None => mesher,
+        Some(None) => mesher.repair(),
+        Some(Some(tolerance)) => mesher.repair_within(tolerance),
+    })
+}
+
+/// What is worth knowing at a glance.
+fn summary(made: &PslgTriangulation, report: &PslgReport<'_>) -> String {
+    let (graph, c) = (&made.graph, &made.certificate);
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        text,
+        "graph      {} points, {} segments, {} holes, {} regions",
+        graph.points.len(),
+        graph.segments.len(),
+        graph.holes.len(),
+        graph.regions.len()
+    );
+    list(&mut text, "repaired", &report.repairs);
+    let without = made.edges_of_segment.iter().filter(|&&edges| edges == 0).count();
+    let without = if without > 0 { format!(", {without} not in the domain") } else { String::new() };
+    let _ = write!(
+        text,
+        "mesh       {} vertices, {} triangles, domain {}\n\
+         segments   {} edges{without}\n\
+         angles     {:.4} to {:.4} degrees\n",
+        c.vertices, c.triangles, report.domain, report.segment_edges, c.min_angle_deg, c.max_angle_deg,
+    );
+    list(&mut text, "exempt", &report.exempt);
+    // What the paper's templates do near segments is no failure of theirs.
+    let name = if report.holds { "beyond" } else { "FAILED" };
+    list(&mut text, name, &report.failed);
+    let _ = write!(
+        text,
+        "{}  {}\nseconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
+        if report.holds { "certified" } else { "NOT SO   " },
+        promises(made),
+        made.seconds.total,
+        made.seconds.refine,
+        made.seconds.extract,
+        made.seconds.certify,
+    );
+    text
+}
+
+/// What a mesh of a graph is to keep.
+fn promises(made: &PslgTriangulation) -> String {
+    let c = &made.certificate;
+    let exempt = if made.exempt.is_empty() { "" } else { " but for exempt corners" };
+    let (min, max) = (c.bounds.min_deg(), c.bounds.max_deg());
+    let points = match c.inputs - c.inputs_kept {
+        0 => "every point a vertex".to_owned(),
+        lost => format!("{lost} points lost"),
+    };
+    let segments = match made.segments.missing.len() {
+        0 => "every segment edges".to_owned(),
+        lost => format!("{lost} parts of segments lost"),
+    };
+    if made.method == SegmentMethod::Paper {
+        return format!("away from segments angles within 43.8978 to 90, {points}, {segments}");
+    }
+    let delaunay = if c.delaunay { "Delaunay" } else { "not Delaunay" };
+    format!("angles within {min:.4} to {max}{exempt}, {delaunay}, {points}, {segments}{}", limited(c))
+}
+
+/// A count and the first items, if there are any.
+fn list(text: &mut String, name: &str, items: &[impl Display]) {
+    if items.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "{name:<9}  {}", items.len());
+    for item in items.iter().take(SHOWN) {
+        let _ = writeln!(text, "           {item}");
+    }
+    if items.len() > SHOWN {
+        let _ = writeln!(text, "           and {} more, see --report", items.len() - SHOWN);
+    }
+}

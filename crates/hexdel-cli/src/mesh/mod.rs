@@ -1,0 +1,252 @@
+//! `hexdel mesh`: points or a graph in, a certified mesh out.
+
+mod graph;
+mod points;
+
+use crate::exit::{Failure, Outcome, warn};
+use crate::outputs::{Content, Outputs};
+use crate::plot::{Colour, PictureArgs};
+use clap::ValueEnum;
+use hexdel::geom::BoundsError;
+use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg};
+use hexdel_io::{MeshView, write_mesh};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Mesh points, or a graph of segments: angles of 43.9 to 90 degrees, 30 to 90
+/// at segments
+#[derive(clap::Args)]
+#[command(
+    mut_arg("colour", |arg| arg.hide(true)),
+    mut_arg("histogram", |arg| arg.hide(true)),
+    mut_arg("zoom", |arg| arg.hide(true)),
+    mut_arg("size", |arg| arg.hide(true)),
+    override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
+    after_help = "\
+Input: .node .poly .csv .tsv .xyz .txt .pts   Output: .ele (with .node) .vtu .ron .svg .png
+Examples:
+  hexdel mesh cities.csv -o cities.ele -o cities.svg --grid
+  hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
+)]
+pub(crate) struct Args {
+    /// File of points or of a graph
+    #[arg(hide = true)]
+    input: PathBuf,
+    /// File to write; may be given several times
+    #[arg(short, long, value_name = "FILE", required_unless_present = "report")]
+    output: Vec<PathBuf>,
+    /// hexagon, hull, box or inside [default: inside of segments, or hexagon]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    domain: Option<DomainName>,
+    /// templates, simple or compact (fewest triangles)
+    #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
+    method: MethodName,
+    /// How hard compact tries: fast, standard or best
+    #[arg(long, value_enum, default_value_t = EffortName::Standard, hide_possible_values = true)]
+    effort: EffortName,
+    /// Time compact may take; spent, it exits with 3 [default: as it takes]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    budget: Option<Duration>,
+    /// Smallest angle allowed [default: the method's; 30 at segments]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    min_angle: Option<f64>,
+    /// Largest angle allowed [default: the method's; 90 at segments]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    max_angle: Option<f64>,
+    /// Largest area of a triangle
+    #[arg(long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
+    max_area: Option<f64>,
+    /// Merge close points, split crossing segments [TOL: 1e-9 of the size]
+    #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
+    #[expect(clippy::option_option, reason = "the option may be given without a value")]
+    repair: Option<Option<f64>>,
+    /// How segments fit in: conform, or paper (keeps no bounds there)
+    #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true)]
+    pslg: Option<PslgName>,
+    /// Circumradius of the hexagon around points [default: the least]
+    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
+    domain_radius: Option<f64>,
+    /// Do not merge hexagons again where all rules allow it
+    #[arg(long)]
+    no_coarsening: bool,
+    /// Threads to use; the mesh does not depend on it [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Write the figures of the mesh as JSON
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Show the hexagons in pictures; more of these: hexdel plot --help
+    #[arg(long)]
+    grid: bool,
+    #[command(flatten)]
+    picture: PictureArgs,
+    /// Print nothing but warnings and errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum DomainName {
+    Hexagon,
+    Hull,
+    Box,
+    Inside,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum PslgName {
+    Conform,
+    Paper,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodName {
+    Templates,
+    Simple,
+    Compact,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum EffortName {
+    Fast,
+    Standard,
+    Best,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|s| Duration::try_from_secs_f64(s).ok());
+    seconds.ok_or_else(|| "expected a number of seconds".to_owned())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if f64::is_finite(number) && number > 0.0 => Ok(number),
+        _ => Err("expected a positive number".to_owned()),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if f64::is_finite(number) && number >= 0.0 => Ok(number),
+        _ => Err("expected a distance".to_owned()),
+    }
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &Args) -> Outcome {
+    let outputs = outputs(args)?;
+    let input = hexdel_io::read_points(&args.input)?;
+    let for_graphs = args.is_for_graphs(&input);
+    if args.picture.colour.is_some_and(Colour::needs_hexagons) {
+        let of = match args.method() {
+            _ if for_graphs => Some("the mesh of a graph"),
+            Method::Compact => Some("the compact method"),
+            _ => None,
+        };
+        if let Some(of) = of {
+            return Err(Failure::NoHexagons { of: of.to_owned() });
+        }
+    }
+    if for_graphs { graph::run(args, &outputs, &input) } else { points::run(args, &outputs, &input) }
+}
+
+fn outputs(args: &Args) -> Result<Outputs, Failure> {
+    let mut outputs = Outputs::default();
+    outputs.protect_input(&args.input);
+    for path in &args.output {
+        outputs.add_mesh(path)?;
+    }
+    if let Some(path) = &args.report {
+        outputs.add_text(path)?;
+    }
+    Ok(outputs)
+}
+
+impl Args {
+    /// Whether the input, or what is asked for, takes more than points.
+    fn is_for_graphs(&self, input: &Pslg) -> bool {
+        let other_domain = self.domain.is_some_and(|d| !matches!(d, DomainName::Hexagon));
+        !input.segments.is_empty() || other_domain || self.max_area.is_some() || self.repair.is_some()
+    }
+
+    /// The options that points and graphs share.
+    fn mesher(&self) -> Mesher {
+        let method = self.method();
+        let effort = match self.effort {
+            EffortName::Fast => Effort::Fast,
+            EffortName::Standard => Effort::Standard,
+            EffortName::Best => Effort::Best,
+        };
+        let mut mesher = Mesher::new().method(method).effort(effort).coarsening(!self.no_coarsening);
+        if let Some(budget) = self.budget {
+            mesher = mesher.budget(budget);
+        }
+        if let Some(radius) = self.domain_radius {
+            mesher = mesher.domain_radius(radius);
+        }
+        if let Some(threads) = self.threads {
+            mesher = mesher.threads(usize::from(threads));
+        }
+        mesher
+    }
+
+    fn method(&self) -> Method {
+        match self.method {
+            MethodName::Templates => Method::Templates,
+            MethodName::Simple => Method::Simple,
+            MethodName::Compact => Method::Compact,
+        }
+    }
+
+    fn domain(&self) -> Option<Domain> {
+        self.domain.map(|domain| match domain {
+            DomainName::Hexagon => Domain::Hexagon,
+            DomainName::Hull => Domain::Hull,
+            DomainName::Box => Domain::Box,
+            DomainName::Inside => Domain::Inside,
+        })
+    }
+
+    /// The bounds asked for, one by one, in place of the usual ones.
+    fn bounds(&self, usual: AngleBounds) -> Result<AngleBounds, BoundsError> {
+        let min = self.min_angle.unwrap_or(usual.min_deg());
+        let max = self.max_angle.unwrap_or(usual.max_deg());
+        AngleBounds::new(min, max)
+    }
+
+    fn failure(&self, source: hexdel::Error) -> Failure {
+        Failure::Mesh { file: self.input.display().to_string(), source: Box::new(source) }
+    }
+}
+
+/// Writes the mesh to all files, and its figures.
+fn write(outputs: &Outputs, view: &MeshView<'_>, report: &impl Serialize) -> Result<(), Failure> {
+    let report = serde_json::to_string_pretty(report)? + "\n";
+    outputs.write(|content, path| match content {
+        Content::Mesh => Ok(write_mesh(path, view)?),
+        _ => {
+            std::fs::write(path, &report).map_err(|source| Failure::Output { file: path.to_owned(), source })
+        }
+    })
+}
+
+/// How many triangles are past a bound by rounding, as the end of a line.
+fn limited(certificate: &hexdel::Certificate) -> String {
+    match certificate.rounding_limited {
+        0 => String::new(),
+        n => format!(
+            "\n           but for {n} triangles whose coordinates do not resolve it, by up to {:.1e} degrees",
+            certificate.worst_rounding_excess_deg
+        ),
+    }
+}
+
+/// Warns of parts of the input that are not used.
+fn warn_ignored(args: &Args, parts: &[(usize, &str)]) {
+    let ignored: Vec<String> =
+        parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+    if !ignored.is_empty() {
+        warn(&format!("{}: ignored, as nothing bounds them: {}", args.input.display(), ignored.join(", ")));
+    }
+}

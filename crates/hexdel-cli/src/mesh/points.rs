@@ -1,0 +1,83 @@
+//! Points in a hexagon.
+
+use super::{Args, limited, warn_ignored, write};
+use crate::exit::{Outcome, Verdict, print};
+use crate::outputs::Outputs;
+use crate::plot::Colour;
+use crate::progress::Progress;
+use hexdel::{Pslg, Triangulation};
+use hexdel_io::{ColourBy, MeshView, Overlay};
+use std::fmt::Write as _;
+
+/// Meshes points, writes the mesh and says what it is like.
+pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
+    warn_ignored(args, &[(input.holes.len(), "holes"), (input.regions.len(), "regions")]);
+    let mut mesher = args.mesher();
+    if args.min_angle.is_some() || args.max_angle.is_some() {
+        mesher = mesher.bounds(args.bounds(args.method().bounds())?);
+    }
+    let progress = Progress::new(args.quiet);
+    let made = mesher.triangulate_watched(&input.points, &progress);
+    progress.finish();
+    let made = made.map_err(|source| args.failure(source))?;
+
+    let inputs = made.input_of_vertex();
+    let overlay: Option<Overlay> = args.grid.then(|| made.overlay());
+    let groups = match args.picture.colour {
+        Some(Colour::Level) => made.levels(),
+        Some(Colour::Class) => made.classes(),
+        _ => None,
+    };
+    let mut picture = args.picture.picture(made.certificate.bounds);
+    picture.overlay = overlay.as_ref();
+    picture.fill_triangles = overlay.is_none() || args.picture.colour.is_some();
+    if let Some(groups) = &groups {
+        picture.colour_by = ColourBy::Groups(groups);
+    }
+    let view = MeshView::new(&made.mesh)
+        .with_input_indices(&inputs)
+        .with_certificate(&made.certificate)
+        .with_picture(picture);
+    write(outputs, &view, &made.report())?;
+    if !args.quiet {
+        let distinct = inputs.iter().flatten().count();
+        print(&summary(&made, distinct))?;
+    }
+    Ok(if made.budget_spent { Verdict::Spent } else { Verdict::Holds })
+}
+
+/// What is worth knowing at a glance.
+fn summary(made: &Triangulation, distinct: usize) -> String {
+    let certificate = &made.certificate;
+    let mut text = String::new();
+    let duplicates = match certificate.inputs - distinct {
+        0 => String::new(),
+        more => format!(" ({more} of them duplicates)"),
+    };
+    let spent =
+        if made.budget_spent { "budget     spent before the mesh was as small as can be\n" } else { "" };
+    // Writing to a string does not fail.
+    let _ = write!(
+        text,
+        "points     {}{duplicates}\n\
+         mesh       {} vertices, {} triangles, {} levels\n\
+         angles     {:.4} to {:.4} degrees\n\
+         certified  angles within {:.4} to {}, Delaunay, one disk, every point a vertex{}\n\
+         {spent}\
+         seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
+        certificate.inputs,
+        certificate.vertices,
+        certificate.triangles,
+        made.max_level,
+        certificate.min_angle_deg,
+        certificate.max_angle_deg,
+        certificate.bounds.min_deg(),
+        certificate.bounds.max_deg(),
+        limited(certificate),
+        made.seconds.total,
+        made.seconds.refine,
+        made.seconds.extract,
+        made.seconds.certify,
+    );
+    text
+}

@@ -1,0 +1,135 @@
+//! `hexdel mesh` and `hexdel check` of graphs.
+
+use crate::support::{Bench, fixture};
+
+fn graph(name: &str) -> String {
+    fixture(&format!("graphs/{name}.poly"))
+}
+
+#[test]
+fn a_graph_is_meshed_inside_without_its_holes_and_holds() {
+    let bench = Bench::new();
+    for name in ["square_with_hole", "regions", "t_junction", "letters", "airfoil"] {
+        let input = graph(name);
+        let run = bench.run(&format!("mesh {input} -o m.ele -o m.vtu --report r.json"));
+        run.fine();
+        assert!(run.out.contains("certified") && run.out.contains("domain inside"), "{}", run.out);
+        let check = bench.run(&format!("check m.ele --input {input}"));
+        check.fine();
+        assert!(check.out.contains("segments are unions of edges"), "{}", check.out);
+        let report = bench.json("r.json");
+        assert_eq!((&report["holds"], &report["domain"]), (&true.into(), &"inside".into()), "{name}");
+        assert!(report["min_angle_deg"].as_f64().unwrap() >= 30.0 - 1e-8);
+        assert!(report["max_angle_deg"].as_f64().unwrap() <= 90.0 + 1e-8);
+        let edges = report["edges_of_segment"].as_array().unwrap();
+        let sum: u64 = edges.iter().map(|e| e.as_u64().unwrap()).sum();
+        assert_eq!(Some(sum), report["segment_edges"].as_u64());
+    }
+}
+
+#[test]
+fn markers_and_regions_are_written() {
+    let bench = Bench::new();
+    bench.run(&format!("mesh {} -q -o a.ele", graph("square_with_hole"))).fine();
+    bench.run(&format!("mesh {} -q -o b.ele -o b.vtu", graph("regions"))).fine();
+    let text = |name: &str| String::from_utf8(bench.read(name)).unwrap();
+    assert!(text("a.node").lines().next().unwrap().ends_with(" 2 1 1"));
+    assert!(text("a.node").lines().any(|line| line.ends_with(" 13")));
+    assert!(text("a.ele").lines().next().unwrap().ends_with(" 3 0"));
+    let attributes = |line: &str| line.ends_with(" 10.5") || line.ends_with(" 20.0");
+    assert!(text("b.ele").lines().skip(1).all(attributes));
+    assert!(text("b.vtu").contains("Name=\"region\"") && text("b.vtu").contains("Name=\"marker\""));
+}
+
+#[test]
+fn domains_cover_points_and_graphs() {
+    let bench = Bench::new();
+    let points = fixture("points/plane100.node");
+    let vertices = |input: &str, domain: &str| {
+        bench.run(&format!("mesh {input} -q --domain {domain} -o m.ele --report r.json")).fine();
+        bench.run(&format!("check m.ele --input {input} --min-angle 20")).fine();
+        bench.json("r.json")["triangles"].as_u64().unwrap()
+    };
+    for domain in ["hexagon", "hull", "box"] {
+        assert!(vertices(&points, domain) > 200, "{domain}");
+    }
+    let letters = graph("airfoil");
+    assert!(vertices(&letters, "inside") < vertices(&letters, "hexagon"));
+    bench.run(&format!("mesh {points} -o m.ele --domain inside")).refused("no part of the plane is enclosed");
+    bench.run(&format!("mesh {points} -o m.ele --domain disk")).refused("disk");
+}
+
+#[test]
+fn areas_are_limited() {
+    let bench = Bench::new();
+    let input = graph("square_with_hole");
+    let triangles = |more: &str| {
+        bench.run(&format!("mesh {input} -q --report r.json {more}")).fine();
+        bench.json("r.json")["triangles"].as_u64().unwrap()
+    };
+    assert!(triangles("--max-area 0.01") >= 1500);
+    assert!(triangles("--max-area 0.01") > 4 * triangles(""));
+    let points = fixture("points/two_points.node");
+    bench.run(&format!("mesh {points} -q --max-area 0.01 -o m.ele")).fine();
+    bench.run(&format!("mesh {input} -o m.ele --max-area 0")).refused("expected a positive number");
+}
+
+#[test]
+fn faults_of_graphs_are_named_and_repaired_if_asked_for() {
+    let bench = Bench::new();
+    let crossing = graph("crossing");
+    bench.run(&format!("mesh {crossing} -o m.ele")).refused("segments 4 and 5 cross at (0.5, 0.5)");
+    bench.run(&format!("mesh {} -o m.ele", graph("needle"))).refused("point 4 and segment 0 are too close");
+    assert!(bench.names().is_empty());
+    for repair in ["--repair", "--repair=1e-6"] {
+        let run = bench.run(&format!("mesh {crossing} -o m.ele --report r.json {repair}"));
+        run.fine();
+        assert!(run.out.contains("repaired   1\n           segments 4 and 5 crossed"), "{}", run.out);
+        assert_eq!(bench.json("r.json")["repairs"][0]["at"], serde_json::json!([0.5, 0.5]));
+        bench.run(&format!("check m.ele --input {crossing}")).fine();
+        bench.run(&format!("mesh {} -q -o m.ele {repair}", graph("needle"))).fine();
+    }
+    bench.run(&format!("mesh {crossing} -o m.ele --repair=-1")).refused("expected a distance");
+    bench.run(&format!("mesh {crossing} -o m.ele --method simple")).refused("is for points");
+    bench.run(&format!("mesh {crossing} -o m.ele --domain-radius 9")).refused("is for points");
+}
+
+/// What fails is written, told of triangle by triangle, and exits with 1.
+#[test]
+fn triangles_out_of_bounds_are_listed() {
+    let bench = Bench::new();
+    let input = graph("narrow");
+    let run = bench.run(&format!("mesh {input} -o m.ele --report r.json"));
+    assert_eq!(run.code, 1);
+    assert!(run.err.starts_with("warning: "), "{}", run.err);
+    assert!(run.out.contains("exempt     2\n") && run.out.contains("NOT SO"), "{}", run.out);
+    assert!(run.out.contains("near point 7, where segments meet at 3.0"), "{}", run.out);
+    let report = bench.json("r.json");
+    let failed = report["failed"].as_array().unwrap();
+    for entry in failed {
+        assert_eq!(entry["reason"], "near sector");
+        assert!(entry["at"][0].is_f64() && entry["corner"]["angle_deg"].as_f64().unwrap() < 12.1);
+    }
+    assert_eq!(report["exempt"][0]["reason"], "sector");
+    // The check comes to the same count by itself.
+    let check = bench.run(&format!("check m.ele --input {input} --json"));
+    assert_eq!(check.code, 1);
+    let found: serde_json::Value = serde_json::from_str(&check.out).unwrap();
+    assert_eq!(found["out_of_bounds"].as_u64(), Some(failed.len() as u64));
+    assert_eq!((&found["exempt"], &found["segments"]["kept"]), (&2.into(), &8.into()));
+}
+
+#[test]
+fn segments_that_are_no_edges_fail_the_check() {
+    let bench = Bench::new();
+    bench.file("m.node", "4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n");
+    bench.file("m.ele", "2 3 0\n0 0 1 2\n1 0 2 3\n");
+    let poly = |segment: &str| format!("4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n1 0\n0 {segment}\n0\n");
+    bench.file("kept.poly", poly("2 0"));
+    bench.file("lost.poly", poly("1 3"));
+    bench.run("check m.ele --input kept.poly").fine();
+    let run = bench.run("check m.ele --input lost.poly");
+    assert_eq!(run.code, 1);
+    assert!(run.out.contains("FAIL  0 of 1 segments are unions of edges"), "{}", run.out);
+    assert!(run.out.contains("segment 0 (1, 0) (0, 1): edges lead to (1, 0) only"), "{}", run.out);
+}

@@ -1,0 +1,114 @@
+//! Every kind of file that is written is read by a reader that is not ours: meshio, in
+//! a virtual environment of Python that is made once below `target/`. Of Triangle's
+//! formats and JSON Python itself is the reader; RON has none outside of Rust.
+//!
+//! Without Python or a package registry this is skipped, and says so. There is no test
+//! harness around it, which would keep that line to itself.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, and this one talks")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use hexdel_geom::{DVec2, TriMesh, VertexId};
+use hexdel_io::{MarkedEdge, MeshData, write_mesh};
+
+/// What is installed. A new version must not break an old commit.
+const PACKAGES: [&str; 2] = ["meshio==5.3.5", "numpy<3"];
+
+fn main() -> ExitCode {
+    // Asked for a list of tests, there is one, without a name of its own.
+    if std::env::args().any(|argument| argument == "--list") {
+        return ExitCode::SUCCESS;
+    }
+    let python = match environment() {
+        Ok(python) => python,
+        Err(reason) => {
+            println!("meshio: skipped, {reason}");
+            return ExitCode::SUCCESS;
+        }
+    };
+    for integers in [true, false] {
+        let folder = tempfile::tempdir().unwrap();
+        write_all(folder.path(), integers);
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/read_back.py");
+        let found = Command::new(&python).arg(script).arg(folder.path()).output().unwrap();
+        print!("meshio: {}", String::from_utf8_lossy(&found.stdout));
+        if !found.status.success() {
+            println!("failed\n{}", String::from_utf8_lossy(&found.stderr));
+            return ExitCode::FAILURE;
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+/// A Python that has meshio, or why there is none.
+fn environment() -> Result<PathBuf, String> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("meshio");
+    let python = ["bin/python", "Scripts/python.exe"].map(|name| folder.join(name));
+    let complete = folder.join("complete");
+    let wanted = PACKAGES.join(" ");
+    let there = || python.iter().find(|python| python.exists()).cloned();
+    if fs::read_to_string(&complete).is_ok_and(|found| found == wanted)
+        && let Some(python) = there()
+    {
+        return Ok(python);
+    }
+    let run = |program: &Path, arguments: &[&str], what: &str| {
+        let found = Command::new(program).args(arguments).output().map_err(|e| format!("{what}: {e}"))?;
+        if found.status.success() {
+            return Ok(());
+        }
+        let said = String::from_utf8_lossy(&found.stderr);
+        Err(format!("{what}: {}", said.lines().last().unwrap_or("it failed")))
+    };
+    let place = folder.display().to_string();
+    run(Path::new("python3"), &["-m", "venv", "--clear", &place], "python3 makes no virtual environment")?;
+    let python = there().ok_or("the virtual environment has no python")?;
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--retries", "1"];
+    run(&python, &[&install[..], &PACKAGES].concat(), "pip installs no meshio")?;
+    fs::write(complete, wanted).map_err(|e| e.to_string())?;
+    Ok(python)
+}
+
+/// Writes a mesh with everything in every format.
+fn write_all(folder: &Path, integers: bool) {
+    let data = sample(integers);
+    let extensions =
+        ["vtu", "msh", "msh2", "mesh", "obj", "off", "ele", "edge", "neigh", "poly", "json", "svg"];
+    for extension in extensions {
+        // Regions that are no integers are not for Medit, and element data of version
+        // 2.2, where they would stand, are more than meshio can read.
+        if integers || !["mesh", "msh2"].contains(&extension) {
+            write_mesh(folder.join("mesh").with_extension(extension), &data.view()).unwrap();
+        }
+    }
+    write_mesh(folder.join("expected.json"), &data.view()).unwrap();
+}
+
+/// A grid of bent squares, halved, with coordinates of many digits and magnitudes.
+fn sample(integers: bool) -> MeshData {
+    const N: usize = 7;
+    let at = |i: usize| {
+        let (x, y) = ((i % N) as f64, (i / N) as f64);
+        DVec2::new(x / 3.0 - 1e-3 * y * y, y * 1e-7 / 7.0 + x * x * 1e-9)
+    };
+    let mut vertices: Vec<DVec2> = (0..N * N).map(at).collect();
+    vertices.push(DVec2::new(-0.0, 5e-324));
+    vertices.push(DVec2::new(-1e300, f64::MAX));
+    let mut triangles = Vec::new();
+    for i in (0..N * (N - 1)).filter(|i| i % N != N - 1) {
+        triangles.extend([[i, i + 1, i + N + 1], [i, i + N + 1, i + N]]);
+    }
+    let triangles: Vec<_> = triangles.into_iter().map(|t| t.map(VertexId::new)).collect();
+    let mut data = MeshData::new(TriMesh { vertices, triangles });
+    let count = data.mesh.vertices.len();
+    data.input_indices = Some((0..count as u32).map(|i| (i % 3 > 0).then_some(u32::MAX - i)).collect());
+    data.vertex_markers = Some((0..count as i32).map(|i| i % 5 - 2).collect());
+    let region = |t: usize| (t * t % 4) as f64 + if integers || t.is_multiple_of(2) { 0.0 } else { 0.1 };
+    data.regions = Some((0..data.mesh.triangles.len()).map(region).collect());
+    let edge = |i: usize| MarkedEdge { ends: [i, i + 1].map(VertexId::new), marker: (i * i % 3) as i32 };
+    data.marked_edges = Some((0..N - 1).map(edge).collect());
+    data
+}

@@ -1,0 +1,189 @@
+//! The state of a live mesh as plain data, to be written and read.
+
+use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::error::OptimizeError;
+use crate::import::import;
+use crate::live::store::{Serials, Store, Triangle, Vertex};
+use crate::live::{LiveMesh, cut};
+use crate::mesh::{Motion, NONE};
+use crate::options::VertexKind;
+
+/// All that a [`LiveMesh`] depends on, but for its sizing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LiveState {
+    bounds: AngleBounds,
+    /// Serial numbers given out last, of vertices and of triangles.
+    serials: (u64, u64),
+    /// Free slots in the order in which they became free.
+    free_vertices: Vec<u32>,
+    free_triangles: Vec<u32>,
+    vertices: Vec<Option<VertexState>>,
+    /// Serial number and corners.
+    triangles: Vec<Option<(u64, [u32; 3])>>,
+}
+
+/// Serial number, position, kind, angle of the domain, a triangle at the
+/// vertex, size of the patches in which its removal failed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct VertexState(u64, DVec2, Kind, f64, u32, u8);
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+enum Kind {
+    Fixed,
+    Along(DVec2),
+    Free,
+}
+
+/// Why data are no state of a live mesh.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StateError {
+    /// A slot holds what it cannot hold.
+    #[error("{what} {slot} is inconsistent")]
+    Slot {
+        /// Vertex or triangle.
+        what: &'static str,
+        /// The slot.
+        slot: usize,
+    },
+    /// The lists of free slots are not those of the free slots.
+    #[error("the list of free slots of {what} is inconsistent")]
+    FreeList {
+        /// Vertices or triangles.
+        what: &'static str,
+    },
+    /// The triangles make no mesh.
+    #[error(transparent)]
+    Mesh(#[from] OptimizeError),
+}
+
+/// How far the angle of the domain at a vertex may be from what its
+/// neighbours say, radians: they slide along rounded sides.
+const SECTOR_TOLERANCE: f64 = 1e-6;
+
+impl LiveMesh {
+    /// The state as data.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn state(&self) -> LiveState {
+        let store = &self.store;
+        let vertex = |v: &Vertex| {
+            let kind = match v.motion {
+                Motion::Fixed | Motion::Frozen | Motion::On(_) => Kind::Fixed,
+                Motion::Along(d) => Kind::Along(d),
+                Motion::Free => Kind::Free,
+            };
+            v.alive().then_some(VertexState(v.serial, v.at, kind, v.sector, v.anchor, v.failed))
+        };
+        LiveState {
+            bounds: self.bounds,
+            serials: (store.serials.vertex, store.serials.triangle),
+            free_vertices: store.free_vertices.clone(),
+            free_triangles: store.free_triangles.clone(),
+            vertices: store.vertices.iter().map(vertex).collect(),
+            triangles: store.triangles.iter().map(|t| t.alive().then_some((t.serial, t.v))).collect(),
+        }
+    }
+
+    /// The live mesh of a state, without sizing. Whether it is within its
+    /// bounds is not checked.
+    ///
+    /// # Errors
+    ///
+    /// [`StateError`] for data that are no state.
+    pub fn restore(state: LiveState) -> Result<Self, StateError> {
+        check_list(&state.free_vertices, &state.vertices, "vertices")?;
+        check_list(&state.free_triangles, &state.triangles, "triangles")?;
+        let vertices = state.vertices.iter().flatten().map(|v| v.0);
+        check_serials(vertices, state.serials.0, "vertices")?;
+        let triangles = state.triangles.iter().flatten().map(|t| t.0);
+        check_serials(triangles, state.serials.1, "triangles")?;
+        check_mesh(&state)?;
+        let serials = Serials { vertex: state.serials.0, triangle: state.serials.1 };
+        let vertices = state.vertices.iter().map(|v| v.map_or(Vertex::FREE, vertex)).collect();
+        let triangle = |(serial, v)| Triangle { v, n: [NONE; 3], serial };
+        let triangles = state.triangles.iter().map(|t| t.map_or(Triangle::FREE, triangle)).collect();
+        let free = [state.free_vertices, state.free_triangles];
+        let mut store = Store::of(vertices, triangles, free, serials);
+        let all: Vec<u32> = store.live_triangles().collect();
+        cut::link(&mut store, &all, &[]);
+        store.take_journal();
+        Ok(Self::of(store, state.bounds))
+    }
+}
+
+fn vertex(VertexState(serial, at, kind, sector, anchor, failed): VertexState) -> Vertex {
+    let motion = match kind {
+        Kind::Fixed => Motion::Fixed,
+        Kind::Along(d) => Motion::Along(d),
+        Kind::Free => Motion::Free,
+    };
+    Vertex { at, motion, sector, anchor, failed, serial }
+}
+
+fn check_list<T>(free: &[u32], slots: &[Option<T>], what: &'static str) -> Result<(), StateError> {
+    let mut listed: Vec<u32> = free.to_vec();
+    listed.sort_unstable();
+    let empty = (0..slots.len() as u32).filter(|&i| slots[i as usize].is_none());
+    if listed.into_iter().eq(empty) { Ok(()) } else { Err(StateError::FreeList { what }) }
+}
+
+fn check_serials(
+    serials: impl Iterator<Item = u64>,
+    last: u64,
+    what: &'static str,
+) -> Result<(), StateError> {
+    let mut all: Vec<u64> = serials.collect();
+    all.sort_unstable();
+    let twice = all.windows(2).find(|w| w[0] == w[1]).map(|w| w[0]);
+    let beyond = all.iter().copied().find(|&s| s == 0 || s > last);
+    match twice.or(beyond) {
+        Some(serial) => Err(StateError::Slot { what, slot: serial as usize }),
+        None => Ok(()),
+    }
+}
+
+/// Checks topology, kinds, sectors and anchors.
+fn check_mesh(state: &LiveState) -> Result<(), StateError> {
+    let mut name = vec![VertexId::new(0); state.vertices.len()];
+    let live: Vec<usize> = (0..name.len()).filter(|&v| state.vertices[v].is_some()).collect();
+    for (i, &v) in live.iter().enumerate() {
+        name[v] = VertexId::new(i);
+    }
+    for (slot, t) in state.triangles.iter().enumerate() {
+        let alive = |v: u32| state.vertices.get(v as usize).is_some_and(Option::is_some);
+        if t.is_some_and(|(_, v)| !v.into_iter().all(alive)) {
+            return Err(StateError::Slot { what: "triangle", slot });
+        }
+    }
+    let kinds: Vec<VertexKind> = state
+        .vertices
+        .iter()
+        .flatten()
+        .map(|v| match v.2 {
+            Kind::Fixed => VertexKind::Fixed,
+            Kind::Along(d) => VertexKind::Sliding(d),
+            Kind::Free => VertexKind::Free,
+        })
+        .collect();
+    let mesh = TriMesh {
+        vertices: state.vertices.iter().flatten().map(|v| v.1).collect(),
+        triangles: state.triangles.iter().flatten().map(|t| t.1.map(|v| name[v as usize])).collect(),
+    };
+    let soup = import(mesh, &kinds, None)?;
+    for (i, &slot) in live.iter().enumerate() {
+        let VertexState(_, _, _, sector, anchor, _) = state.vertices[slot].expect("listed as live");
+        let anchored = state.triangles.get(anchor as usize).copied().flatten();
+        let holds = anchored.is_some_and(|(_, v)| v.contains(&(slot as u32)));
+        // A sector that is no number compares as false.
+        if !holds || !((sector - soup.sector[i]).abs() <= SECTOR_TOLERANCE) {
+            return Err(StateError::Slot { what: "vertex", slot });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! Why a session did not do what was asked.
+
+use super::PointId;
+use crate::error::Error;
+use crate::size::SizeError;
+use hexdel_geom::{Certificate, DVec2};
+use hexdel_optimize::live::StateError;
+use thiserror::Error as ThisError;
+
+/// Why a session did not do what was asked. The session is as it was.
+#[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
+pub enum SessionError {
+    /// A coordinate is not a finite number.
+    #[error("({}, {}) is no point", at.x, at.y)]
+    NotFinite {
+        /// The point.
+        at: DVec2,
+    },
+    /// A point is not inside the domain.
+    #[error("({:?}, {:?}) lies outside of the domain of radius {radius:?}", at.x, at.y)]
+    Outside {
+        /// The point.
+        at: DVec2,
+        /// Circumradius of the domain.
+        radius: f64,
+    },
+    /// There is the same point already.
+    #[error("({:?}, {:?}) is point {} already", at.x, at.y, of.0)]
+    Duplicate {
+        /// The point.
+        at: DVec2,
+        /// Which one it is.
+        of: PointId,
+    },
+    /// A point is closer to another than coordinates resolve.
+    #[error("({:?}, {:?}) is {distance:e} from ({:?}, {:?}), closer than the {least:e} that coordinates resolve",
+        at.x, at.y, to.x, to.y)]
+    TooClose {
+        /// The point.
+        at: DVec2,
+        /// The point it is too close to.
+        to: DVec2,
+        /// Their distance.
+        distance: f64,
+        /// The smallest distance that would do.
+        least: f64,
+    },
+    /// There is no such point, or it is named twice.
+    #[error("there is no point {}", id.0)]
+    UnknownPoint {
+        /// The point.
+        id: PointId,
+    },
+    /// No more calls can be undone.
+    #[error("there is nothing to undo")]
+    NothingToUndo,
+    /// A radius is not positive, or coordinates do not resolve it.
+    #[error("{radius:?} is no radius of a domain around ({:?}, {:?})", centre.x, centre.y)]
+    InvalidDomain {
+        /// The centre of the domain.
+        centre: DVec2,
+        /// The radius.
+        radius: f64,
+    },
+    /// A size is none, or cannot be had.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+    /// The whole was meshed anew, and that failed.
+    #[error(transparent)]
+    Mesh(#[from] Error),
+    /// Sizes by a function cannot be saved.
+    #[error("a size given by a function cannot be saved")]
+    CannotSave,
+    /// What was read is not a saved session.
+    #[error("no session: {message}")]
+    Unreadable {
+        /// What the parser says.
+        message: String,
+    },
+    /// What was read is a session whose mesh is none.
+    #[error("no session: {0}")]
+    State(#[from] StateError),
+    /// What was read is a session whose points are not vertices of its mesh.
+    #[error("no session: point {} is no vertex", id.0)]
+    Points {
+        /// The first such point.
+        id: PointId,
+    },
+    /// What was read is a session whose mesh does not hold.
+    #[error("no session: {} triangles are out of bounds", certificate.out_of_bounds)]
+    NotCertified {
+        /// What its certificate says.
+        certificate: Box<Certificate>,
+    },
+}

@@ -1,0 +1,566 @@
+//! A mesh that points are put into and taken out of.
+//!
+//! The mesh of a session is compact. Each call changes it where it has to and
+//! nowhere else, and says what became of which vertices and triangles. How
+//! that is done is `hexdel-optimize`'s business (`live`); here are the points,
+//! their names, undo, and the mesh made anew where changes nearby do not
+//! suffice. `docs/sessions.md` explains the whole.
+
+mod error;
+mod saved;
+
+use crate::mesher::{Mesher, Method};
+use crate::placement::{self, CONFLICT_REACH, MAX_COORDINATE, finest_spacing};
+use crate::size::{Size, SizeError};
+use crate::triangulation::Triangulation;
+use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
+use hexdel_optimize::live::{Delta, LiveError, LiveMesh, Step};
+use hexdel_optimize::{Effort, Sizing, VertexKind, kinds_of};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+pub use error::SessionError;
+
+/// A point of a session: they are counted from 0 as they come, and no number
+/// is used twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PointId(pub u64);
+
+/// What a call did.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// The points put in, in the order given.
+    pub points: Vec<PointId>,
+    /// What became of the mesh.
+    pub delta: Delta,
+    /// Whether the whole was meshed anew.
+    pub remeshed: bool,
+}
+
+/// A mesh as it stands.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SessionMesh {
+    /// Vertices and counter-clockwise triangles.
+    pub mesh: TriMesh,
+    /// The serial number of each vertex.
+    pub vertex_serials: Vec<u64>,
+    /// The serial number of each triangle.
+    pub triangle_serials: Vec<u64>,
+    /// The points and their vertices.
+    pub points: Vec<(PointId, VertexId)>,
+}
+
+/// Calls that can be undone.
+const UNDO: usize = 256;
+
+/// From so many new points on, and as many as there are, the whole is meshed
+/// anew: point by point takes ten times as long.
+const BATCH: usize = 64;
+
+/// Steps of a domain that coordinates must resolve: a hundred levels of
+/// halving would not be seen.
+const FINEST: f64 = 1024.0;
+
+/// A mesh that changes.
+///
+/// ```
+/// use hexdel::{DVec2, Session};
+///
+/// let mut session = Session::empty(DVec2::ZERO, 1.0)?;
+/// let first = session.insert(DVec2::new(0.1, 0.2))?;
+/// let second = session.insert(DVec2::new(0.1, 0.25))?;
+/// assert!(session.certificate().holds());
+/// assert!(!second.delta.triangles_added.is_empty());
+///
+/// session.remove(&[first.points[0]])?;
+/// session.undo()?;
+/// assert_eq!(session.points().count(), 2);
+/// # Ok::<(), hexdel::SessionError>(())
+/// ```
+///
+/// # Guarantees
+///
+/// After every call the mesh is a Delaunay mesh of the domain within the
+/// bounds, with every point a vertex bit for bit and every edge within the
+/// size: what has changed was held against the certificate's own
+/// predicates. A call that fails changes nothing.
+#[derive(Clone, Debug)]
+pub struct Session {
+    live: LiveMesh,
+    bounds: AngleBounds,
+    effort: Effort,
+    centre: DVec2,
+    radius: f64,
+    size: Option<Size>,
+    /// The slot of each point, none for removed ones.
+    points: Vec<Option<u32>>,
+    /// The point in each slot that has one.
+    of_slot: BTreeMap<u32, PointId>,
+    /// What undoes the last calls, the last one at the end.
+    history: VecDeque<Undo>,
+}
+
+/// What undoes one call.
+#[derive(Clone, Debug)]
+struct Undo {
+    mesh: Before,
+    /// Points and their slots before.
+    points: Vec<(PointId, Option<u32>)>,
+    /// Size and radius before.
+    size: Option<Size>,
+    radius: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Before {
+    Step(Step),
+    /// The whole mesh.
+    Whole(Box<LiveMesh>),
+}
+
+impl Session {
+    /// A hexagonal domain without points, within the bounds of
+    /// [`Method::Compact`].
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::InvalidDomain`].
+    pub fn empty(centre: DVec2, radius: f64) -> Result<Self, SessionError> {
+        let reach = centre.abs().max_element() + radius;
+        let fits = radius > FINEST * finest_spacing(DVec2::splat(reach)) && reach < MAX_COORDINATE;
+        if !(centre.is_finite() && fits) {
+            return Err(SessionError::InvalidDomain { centre, radius });
+        }
+        let mut vertices = placement::corners(centre, radius).to_vec();
+        vertices.push(centre);
+        let triangles = (0..6).map(|i| [6, i, (i + 1) % 6].map(VertexId::new)).collect();
+        let mesh = TriMesh { vertices, triangles };
+        let kinds = kinds_of(&mesh, |_| false);
+        let bounds = Method::Compact.bounds();
+        let live = LiveMesh::new(mesh, &kinds, bounds).map_err(crate::Error::Optimize)?;
+        Ok(Self {
+            live,
+            bounds,
+            effort: Effort::Standard,
+            centre,
+            radius,
+            size: None,
+            points: Vec::new(),
+            of_slot: BTreeMap::new(),
+            history: VecDeque::new(),
+        })
+    }
+
+    /// The mesh that a mesher makes of points, as a session. Its method
+    /// is taken to be [`Method::Compact`].
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Mesh`], [`SessionError::Duplicate`] by the number of the
+    /// earlier point.
+    pub fn new(points: &[DVec2], mesher: &Mesher) -> Result<Self, SessionError> {
+        let mesher = mesher.clone().method(Method::Compact);
+        let made = mesher.triangulate(points)?;
+        let inputs = made.input_of_vertex();
+        for (i, v) in made.vertex_of_input.iter().enumerate() {
+            if let Some(first) = inputs[v.index()].filter(|&first| first as usize != i) {
+                return Err(SessionError::Duplicate { at: points[i], of: PointId(u64::from(first)) });
+            }
+        }
+        let kinds = kinds(&made);
+        let slots: Vec<u32> = made.vertex_of_input.iter().map(|v| v.index() as u32).collect();
+        let mut live =
+            LiveMesh::new(made.mesh, &kinds, made.certificate.bounds).map_err(crate::Error::Optimize)?;
+        let (effort, size) = mesher.for_session();
+        live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
+        Ok(Self {
+            live,
+            bounds: made.certificate.bounds,
+            effort,
+            centre: made.patch.centre,
+            radius: made.patch.radius,
+            size,
+            of_slot: slots.iter().enumerate().map(|(i, &v)| (v, PointId(i as u64))).collect(),
+            points: slots.into_iter().map(Some).collect(),
+            history: VecDeque::new(),
+        })
+    }
+
+    /// Puts a point in.
+    ///
+    /// # Errors
+    ///
+    /// As [`insert_all`](Self::insert_all).
+    pub fn insert(&mut self, point: DVec2) -> Result<Outcome, SessionError> {
+        self.insert_all(&[point])
+    }
+
+    /// Puts points in, all or none.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] for a point that is not finite, outside, there already
+    /// or too close to another, or for which there is no room within the bounds.
+    ///
+    /// # Complexity
+    ///
+    /// For each point in proportion to the triangles that it changes; where
+    /// changes nearby do not suffice, or there are more new points than
+    /// points, the whole is meshed anew.
+    pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
+        let before = self.points.len();
+        let present = self.of_slot.len();
+        if points.len() >= BATCH && points.len() >= present {
+            return self.insert_by_remeshing(points);
+        }
+        for &point in points {
+            match self.insert_one(point) {
+                Ok(()) => {}
+                Err(Refused::Error(error)) => {
+                    self.abandon(before);
+                    return Err(error);
+                }
+                Err(Refused::NoRoom) => {
+                    self.abandon(before);
+                    return self.insert_by_remeshing(points);
+                }
+            }
+        }
+        let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
+        Ok(self.done(before, undo, None))
+    }
+
+    fn insert_one(&mut self, at: DVec2) -> Result<(), Refused> {
+        self.check_point(at)?;
+        let id = PointId(self.points.len() as u64);
+        let slot = match self.live.insert(at) {
+            Ok(slot) => slot,
+            Err(LiveError::Occupied { slot, .. }) => match self.of_slot.get(&slot) {
+                Some(&of) => return Err(SessionError::Duplicate { at, of }.into()),
+                // A corner of the domain that is no point yet.
+                None => slot,
+            },
+            Err(LiveError::Outside { .. }) => {
+                return Err(SessionError::Outside { at, radius: self.radius }.into());
+            }
+            Err(_) => return Err(Refused::NoRoom),
+        };
+        self.points.push(Some(slot));
+        self.of_slot.insert(slot, id);
+        Ok(())
+    }
+
+    /// Refuses a point that coordinates do not tell from another.
+    fn check_point(&mut self, at: DVec2) -> Result<(), SessionError> {
+        if !at.is_finite() {
+            return Err(SessionError::NotFinite { at });
+        }
+        let Some((slot, distance)) = self.live.nearest_fixed(at) else {
+            return Ok(());
+        };
+        let to = self.live.position(slot);
+        let least = finest_spacing(at).max(finest_spacing(to)) * CONFLICT_REACH;
+        if distance > 0.0 && distance < least {
+            return Err(SessionError::TooClose { at, to, distance, least });
+        }
+        Ok(())
+    }
+
+    /// Takes back all since the last call, points beyond `before` with it.
+    fn abandon(&mut self, before: usize) {
+        self.live.abandon();
+        for slot in self.points.drain(before..).flatten() {
+            self.of_slot.remove(&slot);
+        }
+    }
+
+    /// Meshes all points anew, with more.
+    fn insert_by_remeshing(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
+        let (ids, mut all) = self.present();
+        for &at in points {
+            if !at.is_finite() {
+                return Err(SessionError::NotFinite { at });
+            }
+        }
+        all.extend_from_slice(points);
+        let first = self.points.len() as u64;
+        let ids = ids.into_iter().chain((first..).map(PointId).take(points.len())).collect();
+        self.remesh(ids, &all, self.radius, self.size.clone())
+    }
+
+    /// Points and their places.
+    fn present(&self) -> (Vec<PointId>, Vec<DVec2>) {
+        self.points().unzip()
+    }
+
+    /// Meshes points anew: those that are there and new ones.
+    fn remesh(
+        &mut self,
+        ids: Vec<PointId>,
+        points: &[DVec2],
+        radius: f64,
+        size: Option<Size>,
+    ) -> Result<Outcome, SessionError> {
+        let before = self.points.len();
+        let mesher = Mesher::new().method(Method::Compact).effort(self.effort).bounds(self.bounds);
+        let mesher = mesher.around(self.centre, radius);
+        let mesher = size.iter().fold(mesher, |m, s| m.size(s.clone()));
+        if points.is_empty() {
+            let mut anew = Self::empty(self.centre, radius)?;
+            anew.bounds = self.bounds;
+            anew.set_size(size)?;
+            return Ok(self.replace(anew.live, Vec::new(), radius, anew.size));
+        }
+        let made = mesher.triangulate(points)?;
+        let inputs = made.input_of_vertex();
+        for (i, v) in made.vertex_of_input.iter().enumerate() {
+            if let Some(first) = inputs[v.index()].filter(|&first| first as usize != i) {
+                return Err(SessionError::Duplicate { at: points[i], of: ids[first as usize] });
+            }
+        }
+        let kinds = kinds(&made);
+        let slots = ids.into_iter().zip(made.vertex_of_input.iter().map(|v| v.index() as u32)).collect();
+        let mut live = LiveMesh::new(made.mesh, &kinds, self.bounds).map_err(crate::Error::Optimize)?;
+        live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
+        debug_assert_eq!(before, self.points.len());
+        Ok(self.replace(live, slots, radius, size))
+    }
+
+    /// Puts another mesh of points in the place of this one.
+    fn replace(
+        &mut self,
+        live: LiveMesh,
+        slots: Vec<(PointId, u32)>,
+        radius: f64,
+        size: Option<Size>,
+    ) -> Outcome {
+        let before = self.points.len();
+        let (old, delta) = self.live.replace_by(live);
+        let mut points: Vec<Option<u32>> = vec![None; before];
+        for &(id, slot) in &slots {
+            let i = id.0 as usize;
+            points.resize(points.len().max(i + 1), None);
+            points[i] = Some(slot);
+        }
+        let olds = self.points.iter().copied().chain(std::iter::repeat(None));
+        let undo = olds.take(points.len()).enumerate().map(|(i, s)| (PointId(i as u64), s)).collect();
+        self.points = points;
+        self.of_slot = slots.into_iter().map(|(id, slot)| (slot, id)).collect();
+        let olds = (std::mem::replace(&mut self.size, size), std::mem::replace(&mut self.radius, radius));
+        self.push(Undo { mesh: Before::Whole(Box::new(old)), points: undo, size: olds.0, radius: olds.1 });
+        let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
+        Outcome { points, delta, remeshed: true }
+    }
+
+    /// Takes points out, all or none. Vertices that become superfluous go with
+    /// them.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::UnknownPoint`].
+    ///
+    /// # Complexity
+    ///
+    /// In proportion to the triangles that change.
+    pub fn remove(&mut self, ids: &[PointId]) -> Result<Outcome, SessionError> {
+        let mut sorted: Vec<PointId> = ids.to_vec();
+        sorted.sort_unstable();
+        let known = |id: &PointId| self.points.get(id.0 as usize).copied().flatten();
+        let twice = sorted.windows(2).find(|w| w[0] == w[1]).map(|w| w[0]);
+        if let Some(id) = twice.or_else(|| sorted.iter().copied().find(|id| known(id).is_none())) {
+            return Err(SessionError::UnknownPoint { id });
+        }
+        let mut undo = Vec::with_capacity(ids.len());
+        for &id in ids {
+            let slot = self.points[id.0 as usize].take().expect("known to be there");
+            self.of_slot.remove(&slot);
+            undo.push((id, Some(slot)));
+            self.live.release(slot);
+        }
+        Ok(self.done(self.points.len(), undo, None))
+    }
+
+    /// Wants edges to be as short as a size says, or as long as the points
+    /// allow.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Size`].
+    ///
+    /// # Complexity
+    ///
+    /// A look at every edge, and work in proportion to what changes.
+    pub fn set_size(&mut self, size: Option<Size>) -> Result<Outcome, SessionError> {
+        if let Some(size) = &size {
+            let reach = self.centre.abs().max_element() + self.radius;
+            size.check(finest_spacing(DVec2::splat(reach)))?;
+        }
+        let sizing = size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>);
+        match self.live.set_sizing(sizing) {
+            Ok(()) => {
+                let old = std::mem::replace(&mut self.size, size);
+                Ok(self.done(self.points.len(), Vec::new(), Some(old)))
+            }
+            Err(LiveError::Unsized { at, length }) => {
+                self.live.abandon();
+                Err(SizeError::Unreached { at, length }.into())
+            }
+            Err(LiveError::TooMany { triangles }) => Err(SizeError::TooMany { triangles }.into()),
+            Err(_) => Err(SizeError::Unreached { at: self.centre, length: self.radius }.into()),
+        }
+    }
+
+    /// Cuts the longest edge wanted in a box to `2^-halvings` of the longest
+    /// that is there, and leaves the rest as it is but for a transition.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Size`].
+    pub fn refine_box(&mut self, a: DVec2, b: DVec2, halvings: u8) -> Result<Outcome, SessionError> {
+        let (low, high) = (a.min(b), a.max(b));
+        let longest = self.live.longest_edge_in(low, high);
+        let size = (0..halvings).fold(longest, |size, _| 0.5 * size);
+        let now = self.size.clone().unwrap_or_else(Size::unlimited);
+        self.set_size(Some(now.and_box(low, high, size)?))
+    }
+
+    /// Doubles the radius of the domain. The whole is meshed anew.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] if the larger domain cannot be meshed.
+    pub fn grow(&mut self) -> Result<Outcome, SessionError> {
+        let (ids, points) = self.present();
+        self.remesh(ids, &points, 2.0 * self.radius, self.size.clone())
+    }
+
+    /// Takes the last call back that changed something and is not taken back
+    /// yet; 256 are remembered, none across saving.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::NothingToUndo`].
+    ///
+    /// # Complexity
+    ///
+    /// In proportion to what the call changed.
+    pub fn undo(&mut self) -> Result<Outcome, SessionError> {
+        let undo = self.history.pop_back().ok_or(SessionError::NothingToUndo)?;
+        let (delta, remeshed) = match undo.mesh {
+            Before::Step(step) => (self.live.undo(&step), false),
+            Before::Whole(old) => (self.live.replace_by(*old).1, true),
+        };
+        // All slots are freed before any is taken: some may change hands.
+        for &(id, _) in &undo.points {
+            if let Some(slot) = self.points[id.0 as usize].take() {
+                self.of_slot.remove(&slot);
+            }
+        }
+        for (id, slot) in undo.points {
+            self.points[id.0 as usize] = slot;
+            if let Some(slot) = slot {
+                self.of_slot.insert(slot, id);
+            }
+        }
+        (self.size, self.radius) = (undo.size, undo.radius);
+        self.live.assume_sizing(self.size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
+        Ok(Outcome { points: Vec::new(), delta, remeshed })
+    }
+
+    /// Ends a call whose points come after `before`.
+    fn done(
+        &mut self,
+        before: usize,
+        points: Vec<(PointId, Option<u32>)>,
+        old_size: Option<Option<Size>>,
+    ) -> Outcome {
+        let (step, delta) = self.live.take_step();
+        let size = old_size.unwrap_or_else(|| self.size.clone());
+        self.push(Undo { mesh: Before::Step(step), points, size, radius: self.radius });
+        let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
+        Outcome { points, delta, remeshed: false }
+    }
+
+    fn push(&mut self, undo: Undo) {
+        if self.history.len() == UNDO {
+            self.history.pop_front();
+        }
+        self.history.push_back(undo);
+    }
+
+    /// The points that are there.
+    pub fn points(&self) -> impl Iterator<Item = (PointId, DVec2)> + '_ {
+        let present =
+            |(i, slot): (usize, &Option<u32>)| slot.map(|slot| (PointId(i as u64), self.live.position(slot)));
+        self.points.iter().enumerate().filter_map(present)
+    }
+
+    /// Numbers of points, vertices and triangles.
+    pub fn counts(&self) -> [usize; 3] {
+        let [vertices, triangles] = self.live.counts();
+        [self.of_slot.len(), vertices, triangles]
+    }
+
+    /// Centre and circumradius of the domain.
+    pub fn domain(&self) -> (DVec2, f64) {
+        (self.centre, self.radius)
+    }
+
+    /// How long edges may be.
+    pub fn size(&self) -> Option<&Size> {
+        self.size.as_ref()
+    }
+
+    /// The mesh as it stands.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn mesh(&self) -> SessionMesh {
+        let snapshot = self.live.snapshot();
+        let named = |(v, slot): (usize, &u32)| self.of_slot.get(slot).map(|&id| (id, VertexId::new(v)));
+        let mut points: Vec<(PointId, VertexId)> =
+            snapshot.vertex_slots.iter().enumerate().filter_map(named).collect();
+        points.sort_unstable();
+        SessionMesh {
+            points,
+            mesh: snapshot.mesh,
+            vertex_serials: snapshot.vertex_serials,
+            triangle_serials: snapshot.triangle_serials,
+        }
+    }
+
+    /// The certificate of the whole mesh, made from scratch.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn certificate(&self) -> Certificate {
+        let (_, points) = self.present();
+        let options = CertifyOptions { bounds: self.bounds, inputs: Some(&points), ..Default::default() };
+        certify(&self.live.snapshot().mesh, &options)
+    }
+}
+
+/// Why a point was not put in.
+enum Refused {
+    Error(SessionError),
+    NoRoom,
+}
+
+impl From<SessionError> for Refused {
+    fn from(error: SessionError) -> Self {
+        Self::Error(error)
+    }
+}
+
+/// What the vertices of a mesh may do.
+fn kinds(made: &Triangulation) -> Vec<VertexKind> {
+    let mut fixed = vec![false; made.mesh.vertices.len()];
+    for v in &made.vertex_of_input {
+        fixed[v.index()] = true;
+    }
+    kinds_of(&made.mesh, |v| fixed[v.index()])
+}

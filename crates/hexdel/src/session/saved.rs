@@ -1,0 +1,97 @@
+//! Sessions as text (RON), to be continued.
+
+use super::{PointId, Session, SessionError};
+use crate::size::Size;
+use hexdel_geom::DVec2;
+use hexdel_optimize::live::{LiveMesh, LiveState};
+use hexdel_optimize::{Effort, Sizing};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+/// The version of the format.
+const VERSION: u32 = 1;
+
+#[derive(Serialize, Deserialize)]
+struct Document {
+    version: u32,
+    effort: u8,
+    centre: DVec2,
+    radius: f64,
+    size: Option<Size>,
+    /// The slot of each point, none for removed ones.
+    points: Vec<Option<u32>>,
+    mesh: LiveState,
+}
+
+impl Session {
+    /// The session as text. What is read back from it goes on as this one would,
+    /// except that the calls so far cannot be undone.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::CannotSave`] if the size is given by a function.
+    pub fn to_ron(&self) -> Result<String, SessionError> {
+        if !self.size.as_ref().is_none_or(Size::can_be_saved) {
+            return Err(SessionError::CannotSave);
+        }
+        let document = Document {
+            version: VERSION,
+            effort: match self.effort {
+                Effort::Fast => 0,
+                Effort::Best => 2,
+                _ => 1,
+            },
+            centre: self.centre,
+            radius: self.radius,
+            size: self.size.clone(),
+            points: self.points.clone(),
+            mesh: self.live.state(),
+        };
+        ron::to_string(&document).map_err(|e| SessionError::Unreadable { message: e.to_string() })
+    }
+
+    /// Reads what [`to_ron`](Self::to_ron) wrote. The mesh is certified anew.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] for what is no such text, or of a mesh that does not
+    /// hold.
+    pub fn from_ron(text: &str) -> Result<Self, SessionError> {
+        let unreadable = |message: String| SessionError::Unreadable { message };
+        let document: Document = ron::from_str(text).map_err(|e| unreadable(e.to_string()))?;
+        if document.version != VERSION {
+            return Err(unreadable(format!("version {}, not {VERSION}", document.version)));
+        }
+        let (centre, radius) = (document.centre, document.radius);
+        if !(centre.is_finite() && radius.is_finite() && radius > 0.0) {
+            return Err(SessionError::InvalidDomain { centre, radius });
+        }
+        let size = document.size.map(Size::checked).transpose()?;
+        let mut live = LiveMesh::restore(document.mesh)?;
+        let mut of_slot = BTreeMap::new();
+        for (i, slot) in document.points.iter().enumerate() {
+            let id = PointId(i as u64);
+            if slot.is_some_and(|slot| !live.is_fixed(slot) || of_slot.insert(slot, id).is_some()) {
+                return Err(SessionError::Points { id });
+            }
+        }
+        live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
+        let session = Self {
+            bounds: live.bounds(),
+            live,
+            effort: [Effort::Fast, Effort::Standard, Effort::Best][usize::from(document.effort.min(2))],
+            centre,
+            radius,
+            size,
+            points: document.points,
+            of_slot,
+            history: VecDeque::new(),
+        };
+        let certificate = session.certificate();
+        if !certificate.holds() {
+            return Err(SessionError::NotCertified { certificate: Box::new(certificate) });
+        }
+        Ok(session)
+    }
+}
