@@ -141,6 +141,10 @@ const HOPELESS: usize = 20;
 /// tenths of a second.
 const BATCH: usize = 8;
 
+/// Triangles that are rescued in a mesh with segments, at most: each takes some
+/// tenths of a second.
+const FEW: usize = 4;
+
 /// Rounds of search that hopeless triangles take part in.
 const HOPEFUL_ROUNDS: usize = 2;
 
@@ -256,9 +260,10 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, |work| search(work, steps))?;
         }
         for rings in RESCUE_RINGS {
-            let bad = self.bad();
-            // Between segments that meet at less than the bound no refinement helps.
-            if self.soup.is_constrained() || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+            let bad = self.hopeful(false);
+            // Graphs with many bad spots are better made anew with a finer start.
+            let many = self.soup.is_constrained() && bad.len() > FEW;
+            if many || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
