@@ -214,6 +214,11 @@ impl Place {
         Self(between | u8::from(near) << 3)
     }
 
+    /// Near segments, and between two that leave no room for the lower bound.
+    pub(crate) fn in_wedge() -> Self {
+        Self(8 | EXCUSED)
+    }
+
     #[inline]
     pub(crate) fn is_near(self) -> bool {
         self.0 & 8 != 0

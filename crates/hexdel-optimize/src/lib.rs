@@ -52,7 +52,7 @@ mod shake;
 mod sizing;
 mod work;
 
-pub use constraints::{AreaLimit, Constraints};
+pub use constraints::{AreaLimit, Constraints, Hopeless};
 pub use error::OptimizeError;
 pub use options::{Effort, Optimized, Options, Stats, VertexKind};
 pub use outline::kinds_of;

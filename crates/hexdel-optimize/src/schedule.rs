@@ -141,6 +141,13 @@ const HOPELESS: usize = 20;
 /// tenths of a second.
 const BATCH: usize = 8;
 
+/// Triangles that are rescued in a mesh with segments, at most: each takes some
+/// tenths of a second.
+const FEW: usize = 4;
+
+/// Rounds of search that hopeless triangles take part in.
+const HOPEFUL_ROUNDS: usize = 2;
+
 /// Why the work ends early.
 enum Stop {
     OutOfTime,
@@ -244,7 +251,7 @@ impl<'a> Run<'a> {
     fn search(&mut self) -> Result<(), Stop> {
         self.guard = None;
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
-            let bad = self.bad();
+            let bad = self.hopeful(i < HOPEFUL_ROUNDS);
             if bad.is_empty() {
                 break;
             }
@@ -253,15 +260,24 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, |work| search(work, steps))?;
         }
         for rings in RESCUE_RINGS {
-            let bad = self.bad();
-            // Between segments that meet at less than the bound no refinement helps.
-            if self.soup.is_constrained() || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+            let bad = self.hopeful(false);
+            // Graphs with many bad spots are better made anew with a finer start.
+            let many = self.soup.is_constrained() && bad.len() > FEW;
+            if many || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
             self.round_of(&cuts, rescue)?;
         }
         Ok(())
+    }
+
+    /// Triangles outside the bounds for which there is hope, or all.
+    fn hopeful(&self, all: bool) -> Vec<u32> {
+        let corners = |t: u32| self.soup.tris[t as usize].map(|v| self.soup.pos[v as usize]);
+        let mut bad = self.bad();
+        bad.retain(|&t| all || !self.rules.is_hopeless(corners(t)));
+        bad
     }
 
     /// Triangles outside the bounds.

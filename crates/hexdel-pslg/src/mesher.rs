@@ -171,7 +171,7 @@ impl<'a> Mesher<'a> {
 
     /// Whether a triangle lies where no mesh could keep the bounds.
     fn is_hopeless(&self, net: &Net, t: u32) -> bool {
-        sector_near(net, t, &self.sectors, self.sites()).is_some_and(|(s, _)| s.is_hopeless())
+        sector_near(net.corners(t), &self.sectors, self.sites()).is_some_and(|(s, _)| s.is_hopeless())
     }
 
     /// The triangles larger than allowed where their centroids lie.
@@ -199,7 +199,14 @@ impl<'a> Mesher<'a> {
     }
 
     fn kept(&self, strict: bool) -> Kept<'_> {
-        Kept { pieces: &self.pieces, judge: self.judge(), areas: self.areas.as_ref(), strict }
+        Kept {
+            pieces: &self.pieces,
+            sectors: &self.sectors,
+            sites: self.sites(),
+            judge: self.judge(),
+            areas: self.areas.as_ref(),
+            strict,
+        }
     }
 
     /// The result; without right angles near segments if rounding took some of
