@@ -63,6 +63,7 @@ mod obj;
 mod off;
 mod picture;
 mod read;
+mod second_order;
 mod shapes;
 mod sizes;
 mod svg;

@@ -9,4 +9,6 @@ mod dual;
 mod generate;
 mod graph;
 mod mesh;
+mod streams;
 mod support;
+mod triangle;

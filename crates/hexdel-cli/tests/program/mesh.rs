@@ -186,7 +186,9 @@ fn an_older_file_is_replaced_only_by_a_complete_one() {
 #[test]
 fn help_fits_a_screen() {
     let bench = Bench::new();
-    for command in ["dual", "", "mesh", "check", "generate"] {
+    for command in
+        ["", "mesh", "triangle", "check", "convert", "dual", "generate", "session", "completions", "man"]
+    {
         let run = bench.run(&format!("{command} --help"));
         run.fine();
         assert!(run.out.contains("Example"), "{command}");
