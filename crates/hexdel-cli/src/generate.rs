@@ -17,11 +17,10 @@ const MAX_POINTS: u64 = 100_000_000;
 /// Make points to test with
 #[derive(clap::Args)]
 #[command(after_help = "\
-    Kinds: uniform, line, clusters, grid, jittered, circle, spiral, pairs, contrast.\n\
     The same kind, number and seed give the same file everywhere.\n\n\
     Example:\n  hexdel generate spiral 1000 --seed 7 -o spiral.node")]
 pub(crate) struct Args {
-    /// What the points are like
+    /// uniform, line, clusters, grid, jittered, circle, spiral, pairs or contrast
     #[arg(value_name = "KIND", value_parser = kinds(), hide_possible_values = true)]
     kind: Kind,
     /// How many points

@@ -1,8 +1,8 @@
-//! The program `hexdel`: meshes files of points and segments, checks meshes, makes test
-//! points.
+//! The program `hexdel`: meshes files of points and segments, checks and draws
+//! meshes, makes test points.
 //!
-//! One module per command ([`mesh`], [`triangle`], [`check`], [`convert`], [`dual`],
-//! [`generate`], [`session`], [`manual`] for completions and manual pages), and what they
+//! One module per command ([`mesh`], [`triangle`], [`check`], [`plot`], [`convert`],
+//! [`dual`], [`generate`], [`session`], [`manual`] for completions and manual pages), and what they
 //! share: files and standard input ([`input`]), which files are written and when
 //! ([`outputs`]), the bar on a terminal ([`progress`]), errors and exit codes ([`exit`]),
 //! the place in a file that an error is about ([`snippet`]). All meshing is left to the
@@ -17,6 +17,7 @@ mod input;
 mod manual;
 mod mesh;
 mod outputs;
+mod plot;
 mod progress;
 mod session;
 mod sizing;
@@ -47,6 +48,7 @@ enum Command {
     Mesh(mesh::Args),
     Triangle(triangle::Args),
     Check(check::Args),
+    Plot(plot::Args),
     Convert(convert::Args),
     Dual(dual::Args),
     Generate(generate::Args),
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
         Command::Mesh(args) => mesh::run(&args),
         Command::Triangle(args) => triangle::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Plot(args) => plot::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),

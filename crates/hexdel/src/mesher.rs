@@ -92,11 +92,14 @@ impl Start {
         }
     }
 
-    fn rules(self) -> RuleSet {
-        match self {
-            Self::Templates => RuleSet::extended(),
-            Self::Simple => RuleSet::simple(),
-            Self::Coarse => RuleSet::coarse(Coarse::Among),
+    fn rules(self, effort: Effort) -> RuleSet {
+        match (self, effort) {
+            (Self::Templates, _) => RuleSet::extended(),
+            (Self::Simple, _) => RuleSet::simple(),
+            // More repair, fewer removals: what little is removed at this effort
+            // is better not there at all.
+            (Self::Coarse, Effort::Fast) => RuleSet::coarse(Coarse::Apart),
+            (Self::Coarse, _) => RuleSet::coarse(Coarse::Among),
         }
     }
 }
@@ -413,8 +416,8 @@ impl Mesher {
         monitor: &dyn Monitor,
     ) -> Result<Triangulation, Error> {
         let began = Instant::now();
-        let mut refiner =
-            Refiner::new(placement.lattice, start.rules()).with_coarsening(!self.without_coarsening);
+        let mut refiner = Refiner::new(placement.lattice, start.rules(self.effort))
+            .with_coarsening(!self.without_coarsening);
         refiner
             .insert(set.sites(), monitor)
             .map_err(|error| Error::of_refinement(error, || placement::unresolved(set)))?;

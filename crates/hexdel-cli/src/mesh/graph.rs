@@ -6,7 +6,7 @@ use crate::outputs::Outputs;
 use crate::progress::Progress;
 use hexdel::geom::BoundsError;
 use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
-use hexdel_io::{MarkedEdge, MeshView};
+use hexdel_io::{MarkedEdge, MeshView, Picture};
 use std::fmt::{Display, Write as _};
 
 /// Items of a list that are shown; the report has all.
@@ -29,6 +29,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
         with_regions: !made.graph.regions.is_empty(),
         with_markers: true,
         second_order: false,
+        picture: args.picture.picture(made.certificate.bounds),
     };
     finished.write(outputs)
 }
@@ -43,6 +44,7 @@ pub(crate) struct Finished<'a> {
     pub(crate) with_regions: bool,
     pub(crate) with_markers: bool,
     pub(crate) second_order: bool,
+    pub(crate) picture: Picture<'a>,
 }
 
 impl Finished<'_> {
@@ -58,7 +60,8 @@ impl Finished<'_> {
             .with_input_indices(&inputs)
             .with_marked_edges(&edges)
             .with_certificate(&made.certificate)
-            .with_second_order(self.second_order);
+            .with_second_order(self.second_order)
+            .with_picture(self.picture);
         if self.with_markers {
             view = view.with_vertex_markers(&made.vertex_markers);
         }

@@ -6,6 +6,7 @@ mod points;
 use crate::exit::{Failure, Outcome, warn};
 use crate::input::{Formats, is_stream, read_graph};
 use crate::outputs::{Content, Outputs};
+use crate::plot::{Colour, PictureArgs};
 use clap::ValueEnum;
 use hexdel::geom::{BoundsError, Voronoi};
 use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg};
@@ -19,10 +20,14 @@ pub(crate) use graph::Finished;
 /// Mesh points, or segments: angles of 43.9 to 90 degrees, at segments 30 to 90
 #[derive(clap::Args)]
 #[command(
+    mut_arg("colour", |arg| arg.hide(true)),
+    mut_arg("histogram", |arg| arg.hide(true)),
+    mut_arg("zoom", |arg| arg.hide(true)),
+    mut_arg("size", |arg| arg.hide(true)),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
 Input: .node .poly .csv .tsv .xyz .txt .geojson .wkt .json .ron
-Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ron .svg
+Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ron .svg .png
 Examples:
   hexdel mesh cities.csv -o cities.ele -o cities.svg --grid
   hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
@@ -76,9 +81,11 @@ pub(crate) struct Args {
     /// Write the figures of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Show the hexagons in pictures
+    /// Show the hexagons in pictures; more of these: hexdel plot --help
     #[arg(long)]
     grid: bool,
+    #[command(flatten)]
+    picture: PictureArgs,
     /// Print nothing but warnings and errors
     #[arg(short, long)]
     quiet: bool,
@@ -135,11 +142,18 @@ fn tolerance(text: &str) -> Result<f64, String> {
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
     let input = read_graph(&args.input, &args.formats)?;
-    if args.is_for_graphs(&input) {
-        graph::run(args, &outputs, &input)
-    } else {
-        points::run(args, &outputs, &input)
+    let for_graphs = args.is_for_graphs(&input);
+    if args.picture.colour.is_some_and(Colour::needs_hexagons) {
+        let of = match args.method() {
+            _ if for_graphs => Some("the mesh of a graph"),
+            Method::Compact => Some("the compact method"),
+            _ => None,
+        };
+        if let Some(of) = of {
+            return Err(Failure::NoHexagons { of: of.to_owned() });
+        }
     }
+    if for_graphs { graph::run(args, &outputs, &input) } else { points::run(args, &outputs, &input) }
 }
 
 fn outputs(args: &Args) -> Result<Outputs, Failure> {

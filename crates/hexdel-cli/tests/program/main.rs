@@ -9,6 +9,7 @@ mod dual;
 mod generate;
 mod graph;
 mod mesh;
+mod plot;
 mod streams;
 mod support;
 mod triangle;
