@@ -1,8 +1,8 @@
 //! `hexdel convert`: a mesh or points from one format to another.
 
 use crate::exit::{Failure, Outcome, Verdict, warn};
+use crate::input::names;
 use crate::outputs::Outputs;
-use clap::builder::PossibleValuesParser;
 use hexdel::geom::Pslg;
 use hexdel_io::{
     MeshData, MeshFormat, PointFormat, ReadError, WriteError, holds_mesh, read_mesh_data, read_mesh_from,
@@ -37,13 +37,6 @@ pub(crate) struct Args {
     /// Format of INPUT [default: by extension]
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     input_format: Option<String>,
-}
-
-fn names() -> PossibleValuesParser {
-    let mut names: Vec<&str> = MeshFormat::names().chain(PointFormat::names()).collect();
-    names.sort_unstable();
-    names.dedup();
-    PossibleValuesParser::new(names)
 }
 
 /// What is converted.

@@ -1,5 +1,6 @@
 //! How a command ends: errors, exit codes, and text that a closed pipe may cut.
 
+use crate::snippet;
 use hexdel::geom::BoundsError;
 use hexdel_io::{ReadError, WriteError};
 use miette::Diagnostic;
@@ -65,6 +66,11 @@ pub(crate) enum Failure {
     Size { file: String, source: hexdel::SizeError },
     #[error("{failed} commands failed")]
     Commands { failed: usize },
+    #[error("{name}: no format of {what}")]
+    UnknownFormat { name: String, what: &'static str },
+    #[error("-{switch}: {why}")]
+    #[diagnostic(help("docs/triangle-users.md says what each switch does here"))]
+    Switch { switch: String, why: &'static str },
     #[error("no JSON of the figures: {0}")]
     Json(#[from] serde_json::Error),
 }
@@ -90,6 +96,11 @@ pub(crate) fn finish(outcome: Outcome) -> ExitCode {
         Ok(Verdict::Spent) => ExitCode::from(3),
         Err(failure) => {
             complain("error", &failure.to_string());
+            if let Failure::Read(error) = &failure
+                && let Some(snippet) = snippet::of(error)
+            {
+                let _ = write!(io::stderr(), "{snippet}");
+            }
             if let Some(help) = failure.help() {
                 complain("help", &help.to_string());
             }

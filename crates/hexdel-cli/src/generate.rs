@@ -1,11 +1,13 @@
 //! `hexdel generate`: test points.
 
 use crate::exit::{Outcome, Verdict};
-use crate::outputs::Outputs;
+use crate::input::{Formats, is_stream};
+use crate::outputs::{Outputs, to_stdout};
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
 use hexdel::generate::{Kind, generate};
 use hexdel::geom::Pslg;
+use std::io::Write;
 use std::path::PathBuf;
 
 /// More points than this are a slip of the keyboard: they take 1.6 GB here and
@@ -27,9 +29,11 @@ pub(crate) struct Args {
     /// Another seed, other points
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
-    /// Where to: .node, .poly, .csv, .tsv, .xyz, .txt or .pts
+    /// Where to: .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron or -
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    #[command(flatten)]
+    formats: Formats,
 }
 
 fn kinds() -> impl clap::builder::TypedValueParser<Value = Kind> {
@@ -38,10 +42,16 @@ fn kinds() -> impl clap::builder::TypedValueParser<Value = Kind> {
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
+    let points = || Pslg::from_points(generate(args.kind, args.n as usize, args.seed));
+    if is_stream(&args.output) {
+        let format = args.formats.of_points()?;
+        let write =
+            |out: &mut dyn Write| Ok(hexdel_io::write_points_to(out, format, &points(), "standard output")?);
+        return to_stdout(write).map(|()| Verdict::Holds);
+    }
     let mut outputs = Outputs::default();
     outputs.add_points(&args.output)?;
-    let points = generate(args.kind, args.n as usize, args.seed);
-    let points = Pslg::from_points(points);
+    let points = points();
     outputs.write(|_, path| Ok(hexdel_io::write_points(path, &points)?))?;
     Ok(Verdict::Holds)
 }

@@ -1,10 +1,11 @@
 //! The program `hexdel`: meshes files of points and segments, checks and draws
 //! meshes, makes test points.
 //!
-//! One module per command ([`mesh`], [`check`], [`plot`], [`convert`], [`dual`],
-//! [`generate`], [`session`]), and what they
-//! share: which files are written and when ([`outputs`]), the bar on a terminal
-//! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
+//! One module per command ([`mesh`], [`triangle`], [`check`], [`plot`], [`convert`],
+//! [`dual`], [`generate`], [`session`], [`manual`] for completions and manual pages), and what they
+//! share: files and standard input ([`input`]), which files are written and when
+//! ([`outputs`]), the bar on a terminal ([`progress`]), errors and exit codes ([`exit`]),
+//! the place in a file that an error is about ([`snippet`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
 mod check;
@@ -12,14 +13,18 @@ mod convert;
 mod dual;
 mod exit;
 mod generate;
+mod input;
+mod manual;
 mod mesh;
 mod outputs;
 mod plot;
 mod progress;
 mod session;
 mod sizing;
+mod snippet;
+mod triangle;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -41,23 +46,29 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Mesh(mesh::Args),
+    Triangle(triangle::Args),
     Check(check::Args),
     Plot(plot::Args),
     Convert(convert::Args),
     Dual(dual::Args),
     Generate(generate::Args),
     Session(session::Args),
+    Completions(manual::CompletionArgs),
+    Man(manual::ManArgs),
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Mesh(args) => mesh::run(&args),
+        Command::Triangle(args) => triangle::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Plot(args) => plot::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
         Command::Session(args) => session::run(&args),
+        Command::Completions(args) => manual::completions(Cli::command(), &args),
+        Command::Man(args) => manual::man(Cli::command(), &args),
     };
     exit::finish(outcome)
 }

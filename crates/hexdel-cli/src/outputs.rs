@@ -4,11 +4,11 @@
 //! Every file is first written under its own name in a temporary folder beside
 //! its place, on the same file system, and renamed when all are complete.
 
-use crate::exit::Failure;
+use crate::exit::{Failure, print};
 use hexdel_io::{DualFormat, MeshFormat, PointFormat, WriteError};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, TempDir};
 
@@ -30,6 +30,8 @@ pub(crate) struct Outputs {
     protected: Vec<PathBuf>,
     /// Every file that will appear.
     claimed: Vec<PathBuf>,
+    /// What is written to standard output, if anything.
+    stdout: Option<MeshFormat>,
 }
 
 impl Outputs {
@@ -79,6 +81,33 @@ impl Outputs {
         }
     }
 
+    /// A mesh to standard output.
+    pub(crate) fn add_stdout(&mut self, format: MeshFormat) -> Result<(), Failure> {
+        match self.stdout.replace(format) {
+            Some(_) => Err(Failure::Twice { file: "-".into() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes to standard output what goes there.
+    pub(crate) fn write_stdout(
+        &self,
+        write: impl FnOnce(&mut dyn Write, MeshFormat) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        self.stdout.map_or(Ok(()), |format| to_stdout(|out| write(out, format)))
+    }
+
+    /// Says something on standard output, or on standard error if there is a
+    /// mesh on the former.
+    pub(crate) fn tell(&self, text: &str) -> Result<(), Failure> {
+        if self.stdout.is_none() {
+            return print(text);
+        }
+        // If even that is closed there is nobody to tell.
+        let _ = io::stderr().write_all(text.as_bytes());
+        Ok(())
+    }
+
     /// A text of any name.
     pub(crate) fn add_text(&mut self, path: &Path) -> Result<(), Failure> {
         self.add(Content::Text, path, &[path.to_owned()])
@@ -110,6 +139,20 @@ impl Outputs {
             write(*content, &draft).map_err(|failure| renamed(failure, path))?;
         }
         stage.publish()
+    }
+}
+
+/// Writes to standard output. A reader that has seen enough and closed the pipe
+/// is no failure.
+pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> Result<(), Failure>) -> Result<(), Failure> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush().map_err(Failure::Stdout)) {
+        Err(Failure::Stdout(e) | Failure::Write(WriteError::Io { source: e, .. }))
+            if e.kind() == io::ErrorKind::BrokenPipe =>
+        {
+            Ok(())
+        }
+        done => done,
     }
 }
 

@@ -72,6 +72,7 @@ mod picture;
 mod png;
 mod read;
 mod scene;
+mod second_order;
 mod shapes;
 mod sizes;
 mod survey;

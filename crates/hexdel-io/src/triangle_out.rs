@@ -8,15 +8,21 @@ use std::io::{self, Write};
 
 use hexdel_geom::{DVec2, Pslg};
 
+use crate::second_order::Midpoints;
 use crate::text::TextWriter;
 use crate::topology::Edges;
 use crate::view::MeshView;
 
-/// Writes the vertices of a mesh.
+/// Writes the vertices of a mesh, and the midpoints of elements of second order.
 pub(crate) fn write_node(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
+    let midpoints = view.second_order.then(|| Midpoints::new(view));
+    write_nodes(out, view, midpoints.as_ref())
+}
+
+fn write_nodes(out: &mut dyn Write, view: &MeshView<'_>, midpoints: Option<&Midpoints>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     let attributes = u32::from(view.input_indices.is_some());
-    text.integer(view.mesh.vertices.len()).text(" 2 ");
+    text.integer(view.mesh.vertices.len() + midpoints.map_or(0, Midpoints::count)).text(" 2 ");
     text.integer(attributes).text(" ");
     text.integer(u32::from(view.vertex_markers.is_some())).text("\n");
     for (i, &p) in view.mesh.vertices.iter().enumerate() {
@@ -27,18 +33,29 @@ pub(crate) fn write_node(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result
         }
         end_with_marker(&mut text, view.vertex_markers.map(|markers| &markers[i]))?;
     }
+    for (i, p, marker) in midpoints.iter().flat_map(|m| m.nodes(&view.mesh.vertices)) {
+        position_row(&mut text, i, p);
+        if view.input_indices.is_some() {
+            text.text(" -1");
+        }
+        end_with_marker(&mut text, view.vertex_markers.map(|_| &marker))?;
+    }
     text.finish()
 }
 
-/// Writes the triangles of a mesh.
+/// Writes the triangles of a mesh, with six nodes each if of second order.
 pub(crate) fn write_ele(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
+    let midpoints = view.second_order.then(|| Midpoints::new(view));
     let mut text = TextWriter::new(out);
-    text.integer(view.mesh.triangles.len()).text(" 3 ");
+    text.integer(view.mesh.triangles.len()).text(if midpoints.is_some() { " 6 " } else { " 3 " });
     text.integer(u32::from(view.regions.is_some())).text("\n");
     for (i, corners) in view.mesh.triangles.iter().enumerate() {
         text.integer(i);
         for corner in corners {
             text.text(" ").integer(corner.index());
+        }
+        for node in midpoints.iter().flat_map(|m| m.of(*corners)) {
+            text.text(" ").integer(node);
         }
         if let Some(regions) = view.regions {
             text.text(" ").number(regions[i]);
@@ -88,7 +105,7 @@ pub(crate) fn write_neigh(out: &mut dyn Write, view: &MeshView<'_>) -> io::Resul
 /// Writes the vertices of a mesh and its marked edges as segments, or those of its
 /// boundary with marker 1 if none are known.
 pub(crate) fn write_mesh_poly(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
-    write_node(out, view)?;
+    write_nodes(out, view, None)?;
     let mut text = TextWriter::new(out);
     let segment = |text: &mut TextWriter<'_>, i: usize, ends: [u32; 2], marker: i32| {
         text.integer(i).text(" ").integer(ends[0]);

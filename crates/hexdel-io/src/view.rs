@@ -54,6 +54,9 @@ pub struct MeshView<'a> {
     pub marked_edges: Option<&'a [MarkedEdge]>,
     /// What was certified of the mesh. Kept by `.ron`.
     pub certificate: Option<&'a dyn erased_serde::Serialize>,
+    /// Whether triangles get nodes on the midpoints of their edges, as elements of
+    /// second order. Kept by `.node` and `.ele`.
+    pub second_order: bool,
     /// How pictures look and what else is on them.
     pub picture: Picture<'a>,
 }
@@ -68,6 +71,7 @@ impl<'a> MeshView<'a> {
             regions: None,
             marked_edges: None,
             certificate: None,
+            second_order: false,
             picture: Picture::default(),
         }
     }
@@ -100,6 +104,12 @@ impl<'a> MeshView<'a> {
     #[must_use]
     pub fn with_certificate(self, certificate: &'a dyn erased_serde::Serialize) -> Self {
         Self { certificate: Some(certificate), ..self }
+    }
+
+    /// With nodes on the midpoints of edges, or without.
+    #[must_use]
+    pub fn with_second_order(self, second_order: bool) -> Self {
+        Self { second_order, ..self }
     }
 
     /// With options for pictures.

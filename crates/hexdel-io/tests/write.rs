@@ -70,6 +70,22 @@ fn markers_and_regions_are_written() {
 }
 
 #[test]
+fn second_order_elements_have_nodes_on_their_edges() {
+    let mesh = squares(1);
+    let edge = MarkedEdge { ends: [1, 3].map(VertexId::new), marker: 9 };
+    let (markers, edges) = ([1; 4], [edge]);
+    let view = MeshView::new(&mesh).with_vertex_markers(&markers).with_marked_edges(&edges);
+    let folder = tempfile::tempdir().unwrap();
+    write_mesh(folder.path().join("m.ele"), &view.with_second_order(true)).unwrap();
+    let nodes = fs::read_to_string(folder.path().join("m.node")).unwrap();
+    let midpoints = "4 0.5 0.0 1\n5 0.0 0.5 1\n6 0.5 0.5 0\n7 1.0 0.5 9\n8 0.5 1.0 1\n";
+    assert!(nodes.starts_with("9 2 0 1\n") && nodes.ends_with(midpoints), "{nodes}");
+    // 0 1 3 are (0, 0), (1, 0), (1, 1); opposite to them (1, 0.5), (0.5, 0.5), (0.5, 0).
+    let elements = fs::read_to_string(folder.path().join("m.ele")).unwrap();
+    assert_eq!(elements, "2 6 0\n0 0 1 3 7 6 4\n1 0 3 2 8 5 6\n");
+}
+
+#[test]
 fn arrays_that_do_not_fit_are_named() {
     let mesh = squares(1);
     let edge = MarkedEdge { ends: [0, 4].map(VertexId::new), marker: 1 };

@@ -128,7 +128,7 @@ pub struct Mesher {
     threads: Option<usize>,
     pub(crate) without_coarsening: bool,
     pub(crate) effort: Effort,
-    budget: Option<Duration>,
+    pub(crate) budget: Option<Duration>,
     pub(crate) graph: GraphOptions,
 }
 

@@ -9,10 +9,11 @@ use common::graph;
 use hexdel::geom::{Cancelled, check_segments, orient2d};
 use hexdel::pslg::{Feature, PslgError, Reason, Repair, ValidateError};
 use hexdel::{
-    AngleBounds, DVec2, Domain, Error, Mesher, Method, Monitor, Phase, Pslg, PslgTriangulation, TriangleId,
-    triangulate_pslg,
+    AngleBounds, DVec2, Domain, Error, Mesher, Method, Monitor, Phase, Pslg, PslgTriangulation,
+    SegmentMethod, TriangleId, triangulate_pslg,
 };
 use std::sync::Mutex;
+use std::time::Duration;
 
 fn area(made: &PslgTriangulation) -> f64 {
     let corners = (0..made.mesh.triangles.len()).map(|t| made.mesh.corners(TriangleId::new(t)));
@@ -166,6 +167,28 @@ fn what_coordinates_do_not_resolve_is_named_and_repaired() {
     assert!(items.contains(&Feature::Point(5)), "{items:?}");
 }
 
+/// Fewer triangles, under the same promises.
+#[test]
+fn compact_meshes_are_smaller() {
+    for name in ["square_with_hole", "letters", "airfoil"] {
+        let mesh = |method| Mesher::new().method(method).triangulate_pslg(&graph(name)).unwrap();
+        let (compact, templates) = (mesh(Method::Compact), mesh(Method::Templates));
+        hold(&compact);
+        hold(&templates);
+        assert!(compact.mesh.triangles.len() < templates.mesh.triangles.len(), "{name}");
+    }
+}
+
+/// The paper's way keeps segments and orientation, and its bounds elsewhere.
+#[test]
+fn the_papers_way_keeps_what_it_promises() {
+    let mesher = Mesher::new().segment_method(SegmentMethod::Paper);
+    let made = mesher.triangulate_pslg(&graph("square_with_hole")).unwrap();
+    hold(&made);
+    assert_eq!((made.method, made.report().method), (SegmentMethod::Paper, "paper"));
+    assert!(made.report().failed.iter().all(|entry| entry.reason == "template"));
+}
+
 #[test]
 fn bounds_hold_where_they_are_asked_for() {
     let letters = graph("square_with_hole");
@@ -196,6 +219,7 @@ fn options_without_a_use_are_refused() {
         Mesher::new().near_bounds(near),
         Mesher::new().max_area(1.0),
         Mesher::new().repair(),
+        Mesher::new().segment_method(SegmentMethod::Paper),
     ] {
         assert!(matches!(mesher.triangulate(&plate.points), Err(Error::NotForPoints { .. })));
     }

@@ -3,6 +3,7 @@
 mod graph;
 
 use crate::exit::{Outcome, Verdict, print};
+use crate::input::{Formats, is_stream, read_graph, read_mesh};
 use graph::OfGraph;
 use hexdel::geom::certificate::Violation;
 use hexdel::geom::{CertifyOptions, certify};
@@ -31,12 +32,14 @@ pub(crate) struct Args {
     /// File of points that must be vertices, bit for bit, and of segments
     #[arg(long)]
     input: Option<PathBuf>,
-    /// The smallest angle allowed, degrees [default: 43.8978, with segments 30]
+    /// Smallest angle allowed, degrees [default: 43.8978; 30 with segments]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     min_angle: Option<f64>,
     /// The largest angle allowed, degrees
     #[arg(long, value_name = "B", default_value_t = AngleBounds::EXTENDED.max_deg(), allow_negative_numbers = true)]
     max_angle: f64,
+    #[command(flatten)]
+    formats: Formats,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -60,8 +63,10 @@ const LISTED: usize = 100;
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
-    let input = args.input.as_deref().map(hexdel_io::read_points).transpose()?;
-    let mesh = hexdel_io::read_mesh(&args.mesh)?;
+    // Of two files only one can be standard input.
+    let of_input = if is_stream(&args.mesh) { Formats::default() } else { args.formats.clone() };
+    let input = args.input.as_deref().map(|path| read_graph(path, &of_input)).transpose()?;
+    let mesh = read_mesh(&args.mesh, &args.formats)?;
     let graph = input.as_ref().filter(|input| !input.segments.is_empty());
     let usual = if graph.is_some() { LEAST_WITH_SEGMENTS } else { AngleBounds::EXTENDED.min_deg() };
     let options = CertifyOptions {

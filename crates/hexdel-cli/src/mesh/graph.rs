@@ -1,12 +1,12 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
 use super::{Args, PslgName, limited, write};
-use crate::exit::{Outcome, Verdict, print, warn};
+use crate::exit::{Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use hexdel::geom::BoundsError;
 use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
-use hexdel_io::{MarkedEdge, MeshView};
+use hexdel_io::{MarkedEdge, MeshView, Picture};
 use std::fmt::{Display, Write as _};
 
 /// Items of a list that are shown; the report has all.
@@ -22,29 +22,61 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
     let made = mesher.triangulate_pslg_watched(input, &progress);
     progress.finish();
     let made = made.map_err(|source| args.failure(source))?;
+    let finished = Finished {
+        made: &made,
+        file: &args.input.display().to_string(),
+        quiet: args.quiet,
+        with_regions: !made.graph.regions.is_empty(),
+        with_markers: true,
+        second_order: false,
+        picture: args.picture.picture(made.certificate.bounds),
+    };
+    finished.write(outputs)
+}
 
-    let report = made.report();
-    let inputs = made.input_of_vertex();
-    let regions = (!made.graph.regions.is_empty()).then(|| made.region_attributes());
-    let edges: Vec<MarkedEdge> =
-        made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
-    let mut view = MeshView::new(&made.mesh)
-        .with_input_indices(&inputs)
-        .with_vertex_markers(&made.vertex_markers)
-        .with_marked_edges(&edges)
-        .with_certificate(&made.certificate)
-        .with_picture(args.picture.picture(made.certificate.bounds));
-    if let Some(regions) = &regions {
-        view = view.with_regions(regions);
+/// A mesh of a graph to be written.
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
+pub(crate) struct Finished<'a> {
+    pub(crate) made: &'a PslgTriangulation,
+    /// What it was made of.
+    pub(crate) file: &'a str,
+    pub(crate) quiet: bool,
+    pub(crate) with_regions: bool,
+    pub(crate) with_markers: bool,
+    pub(crate) second_order: bool,
+    pub(crate) picture: Picture<'a>,
+}
+
+impl Finished<'_> {
+    /// Writes the mesh to all files and says what it is like.
+    pub(crate) fn write(&self, outputs: &Outputs) -> Outcome {
+        let made = self.made;
+        let report = made.report();
+        let inputs = made.input_of_vertex();
+        let regions = self.with_regions.then(|| made.region_attributes());
+        let edges: Vec<MarkedEdge> =
+            made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
+        let mut view = MeshView::new(&made.mesh)
+            .with_input_indices(&inputs)
+            .with_marked_edges(&edges)
+            .with_certificate(&made.certificate)
+            .with_second_order(self.second_order)
+            .with_picture(self.picture);
+        if self.with_markers {
+            view = view.with_vertex_markers(&made.vertex_markers);
+        }
+        if let Some(regions) = &regions {
+            view = view.with_regions(regions);
+        }
+        write(outputs, &view, &report)?;
+        if !self.quiet {
+            outputs.tell(&summary(made, &report))?;
+        }
+        if !made.holds() {
+            warn(&format!("{}: the mesh does not keep what was asked for", self.file));
+        }
+        Ok(if made.holds() { Verdict::Holds } else { Verdict::Fails })
     }
-    write(outputs, &view, &report)?;
-    if !args.quiet {
-        print(&summary(&made, &report))?;
-    }
-    if !made.holds() {
-        warn(&format!("{}: the mesh does not keep what was asked for", args.input.display()));
-    }
-    Ok(if made.holds() { Verdict::Holds } else { Verdict::Fails })
 }
 
 fn mesher(args: &Args) -> Result<Mesher, BoundsError> {

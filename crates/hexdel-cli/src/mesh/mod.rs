@@ -4,18 +4,20 @@ mod graph;
 mod points;
 
 use crate::exit::{Failure, Outcome, warn};
+use crate::input::{Formats, is_stream, read_graph};
 use crate::outputs::{Content, Outputs};
 use crate::plot::{Colour, PictureArgs};
 use clap::ValueEnum;
-use hexdel::geom::BoundsError;
+use hexdel::geom::{BoundsError, Voronoi};
 use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg};
-use hexdel_io::{MeshView, write_mesh};
+use hexdel_io::{MeshView, write_dual, write_mesh, write_mesh_to};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Mesh points, or a graph of segments: angles of 43.9 to 90 degrees, 30 to 90
-/// at segments
+pub(crate) use graph::Finished;
+
+/// Mesh points, or segments: angles of 43.9 to 90 degrees, at segments 30 to 90
 #[derive(clap::Args)]
 #[command(
     mut_arg("colour", |arg| arg.hide(true)),
@@ -24,7 +26,8 @@ use std::time::Duration;
     mut_arg("size", |arg| arg.hide(true)),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
-Input: .node .poly .csv .tsv .xyz .txt .pts   Output: .ele (with .node) .vtu .ron .svg .png
+Input: .node .poly .csv .tsv .xyz .txt .geojson .wkt .json .ron
+Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ron .svg .png
 Examples:
   hexdel mesh cities.csv -o cities.ele -o cities.svg --grid
   hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
@@ -73,6 +76,8 @@ pub(crate) struct Args {
     /// Threads to use; the mesh does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    #[command(flatten)]
+    formats: Formats,
     /// Write the figures of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -136,7 +141,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
-    let input = hexdel_io::read_points(&args.input)?;
+    let input = read_graph(&args.input, &args.formats)?;
     let for_graphs = args.is_for_graphs(&input);
     if args.picture.colour.is_some_and(Colour::needs_hexagons) {
         let of = match args.method() {
@@ -155,7 +160,11 @@ fn outputs(args: &Args) -> Result<Outputs, Failure> {
     let mut outputs = Outputs::default();
     outputs.protect_input(&args.input);
     for path in &args.output {
-        outputs.add_mesh(path)?;
+        if is_stream(path) {
+            outputs.add_stdout(args.formats.of_output()?)?;
+        } else {
+            outputs.add_mesh(path)?;
+        }
     }
     if let Some(path) = &args.report {
         outputs.add_text(path)?;
@@ -225,10 +234,15 @@ fn write(outputs: &Outputs, view: &MeshView<'_>, report: &impl Serialize) -> Res
     let report = serde_json::to_string_pretty(report)? + "\n";
     outputs.write(|content, path| match content {
         Content::Mesh => Ok(write_mesh(path, view)?),
+        Content::Dual => {
+            let at_fault = |source| Failure::Voronoi { file: path.display().to_string(), source };
+            Ok(write_dual(path, view.mesh, &Voronoi::new(view.mesh).map_err(at_fault)?)?)
+        }
         _ => {
             std::fs::write(path, &report).map_err(|source| Failure::Output { file: path.to_owned(), source })
         }
-    })
+    })?;
+    outputs.write_stdout(|out, format| Ok(write_mesh_to(out, format, view, "standard output")?))
 }
 
 /// How many triangles are past a bound by rounding, as the end of a line.

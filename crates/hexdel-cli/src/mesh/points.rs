@@ -1,7 +1,7 @@
 //! Points in a hexagon.
 
 use super::{Args, limited, warn_ignored, write};
-use crate::exit::{Outcome, Verdict, print};
+use crate::exit::{Outcome, Verdict};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
     write(outputs, &view, &made.report())?;
     if !args.quiet {
         let distinct = inputs.iter().flatten().count();
-        print(&summary(&made, distinct))?;
+        outputs.tell(&summary(&made, distinct))?;
     }
     Ok(if made.budget_spent { Verdict::Spent } else { Verdict::Holds })
 }

@@ -28,8 +28,7 @@ use std::path::{Path, PathBuf};
     size file FILE               .. of a raster (.asc) or of points with sizes\n  \
     size gradation G             growth per distance of all that follows\n  \
     refine X Y X Y K             halve the edges in a box K times\n  \
-    grow                         double the domain\n  \
-    undo                         take the last change back\n  \
+    grow, undo                   double the domain; take the last change back\n  \
     points, counts, certify      what there is\n  \
     mesh FILE, save FILE         write the mesh; the session, to be loaded\n  \
     quit\n\n\

@@ -60,6 +60,22 @@ fn domains_cover_points_and_graphs() {
 }
 
 #[test]
+fn methods_and_ways_are_at_choice() {
+    let bench = Bench::new();
+    let input = graph("airfoil");
+    let report = |more: &str| {
+        bench.run(&format!("mesh {input} -q --report r.json {more}")).fine();
+        bench.json("r.json")
+    };
+    let triangles = |report: &serde_json::Value| report["triangles"].as_u64().unwrap();
+    let (compact, templates) = (report("--method compact"), report("--method templates"));
+    assert!(triangles(&compact) < triangles(&templates));
+    let paper = report("--pslg paper");
+    assert_eq!((&paper["method"], &compact["method"]), (&"paper".into(), &"conform".into()));
+    bench.run(&format!("mesh {input} -o m.ele --budget 1")).refused("a budget is for points");
+}
+
+#[test]
 fn areas_are_limited() {
     let bench = Bench::new();
     let input = graph("square_with_hole");

@@ -10,4 +10,6 @@ mod generate;
 mod graph;
 mod mesh;
 mod plot;
+mod streams;
 mod support;
+mod triangle;

@@ -186,7 +186,20 @@ fn an_older_file_is_replaced_only_by_a_complete_one() {
 #[test]
 fn help_fits_a_screen() {
     let bench = Bench::new();
-    for command in ["", "mesh", "check", "plot", "dual", "generate"] {
+    let commands = [
+        "mesh",
+        "triangle",
+        "check",
+        "plot",
+        "convert",
+        "dual",
+        "generate",
+        "session",
+        "completions",
+        "man",
+        "",
+    ];
+    for command in commands {
         let run = bench.run(&format!("{command} --help"));
         run.fine();
         assert!(run.out.contains("Example"), "{command}");

@@ -1,5 +1,6 @@
 //! Runs the program in a folder of its own.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
@@ -44,6 +45,16 @@ impl Bench {
     /// Runs the program here, with the arguments separated by spaces.
     pub(crate) fn run(&self, arguments: &str) -> Run {
         Run::of(self.command(arguments).output().unwrap())
+    }
+
+    /// Runs the program here with something on its standard input.
+    pub(crate) fn fed(&self, arguments: &str, input: &[u8]) -> Run {
+        let pipes = [Stdio::piped(), Stdio::piped(), Stdio::piped()];
+        let [stdin, stdout, stderr] = pipes;
+        let mut child = self.command(arguments).stdin(stdin).stdout(stdout).stderr(stderr).spawn().unwrap();
+        // A program that does not read to the end may have closed the pipe.
+        let _ = child.stdin.take().unwrap().write_all(input);
+        Run::of(child.wait_with_output().unwrap())
     }
 
     pub(crate) fn command(&self, arguments: &str) -> Command {

@@ -298,6 +298,8 @@ impl Mesher {
             ("the radius of a domain", self.domain_radius.is_some()),
             ("the size of edges", self.size.is_some()),
             ("meshing without coarsening", self.without_coarsening),
+            ("a size", self.size.is_some()),
+            ("a budget", self.budget.is_some()),
         ];
         match given.into_iter().find(|(_, given)| *given) {
             Some((option, _)) => Err(Error::NotForGraphs { option }),

@@ -1,0 +1,167 @@
+//! The place in a file that an error is about, as miette draws it.
+//!
+//! The file is read again, up to the line at fault; what was read from standard
+//! input is gone. Lines too long for a terminal are not shown.
+
+use hexdel_io::ReadError;
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
+    SourceCode, SourceSpan, SpanContents,
+};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, IsTerminal, Read};
+use thiserror::Error;
+
+/// Lines before the one at fault.
+const BEFORE: u64 = 2;
+
+/// Bytes of the longest line that is shown.
+const WIDEST: u64 = 400;
+
+/// Draws the line that an error is about, if there is one.
+pub(crate) fn of(error: &ReadError) -> Option<String> {
+    let (file, line, label, found) = place(error)?;
+    let excerpt = Excerpt::read(&file, line)?;
+    let span = excerpt.span(found.as_deref());
+    let pointed = Pointed { excerpt, label: LabeledSpan::new_with_span(Some(label), span) };
+    let terminal = io::stderr().is_terminal();
+    let theme = if terminal { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
+    let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(BEFORE as usize);
+    let mut text = String::new();
+    handler.render_report(&mut text, &pointed).ok()?;
+    // The message comes first and has been said.
+    let start = text.lines().position(|line| line.contains(&format!("[{file}:")))?;
+    Some(text.lines().skip(start).flat_map(|line| [line, "\n"]).collect())
+}
+
+/// File and line, what to say there, and the text at fault.
+fn place(error: &ReadError) -> Option<(String, u64, String, Option<String>)> {
+    let text = error.to_string();
+    let line = error.line()?;
+    let mark = format!(":{line}:");
+    let file = text[..text.find(&mark)?].to_owned();
+    // After the line there may be a column.
+    let message =
+        text[file.len() + mark.len()..].trim_start_matches(|c: char| c.is_ascii_digit() || c == ':');
+    let found = match error {
+        ReadError::Malformed { found, .. } | ReadError::TrailingRow { found, .. } => {
+            found.strip_prefix('"').and_then(|f| f.strip_suffix('"')).map(str::to_owned)
+        }
+        ReadError::NonFinite { found, .. } => Some(found.clone()),
+        ReadError::IndexOutOfRange { index, .. } => Some(index.to_string()),
+        ReadError::NonConsecutive { found, .. } => Some(found.to_string()),
+        _ => None,
+    };
+    Some((file, line, message.trim().to_owned(), found))
+}
+
+/// Some lines of a file.
+#[derive(Debug)]
+struct Excerpt {
+    file: String,
+    text: String,
+    /// The number of the first, from 0.
+    first: usize,
+    /// Where the line at fault starts in the text.
+    at: usize,
+}
+
+impl Excerpt {
+    fn read(file: &str, line: u64) -> Option<Self> {
+        let mut reader = BufReader::new(File::open(file).ok()?);
+        let first = line.saturating_sub(BEFORE).max(1);
+        let mut excerpt =
+            Self { file: file.to_owned(), text: String::new(), first: first as usize - 1, at: 0 };
+        for number in 1..=line {
+            let mut bytes = Vec::new();
+            reader.by_ref().take(WIDEST + 1).read_until(b'\n', &mut bytes).ok()?;
+            if bytes.is_empty() || bytes.len() as u64 > WIDEST && !bytes.ends_with(b"\n") {
+                return None;
+            }
+            if number >= first {
+                excerpt.at = excerpt.text.len();
+                let line = String::from_utf8(bytes).ok()?;
+                excerpt.text.push_str(line.trim_end_matches(['\r', '\n']));
+                excerpt.text.push('\n');
+            }
+        }
+        // What controls a terminal is no text to print.
+        excerpt.text.chars().all(|c| c == '\n' || c == '\t' || !c.is_control()).then_some(excerpt)
+    }
+
+    /// The text at fault in the last line, or all of the line. Fields are looked
+    /// for from behind: the number of a row is seldom what is wrong with it.
+    fn span(&self, found: Option<&str>) -> SourceSpan {
+        let line = self.text[self.at..].trim_end();
+        let indent = line.len() - line.trim_start().len();
+        let field = found.filter(|f| !f.is_empty()).and_then(|f| Some((line.rfind(f)?, f.len())));
+        let (offset, length) = field.unwrap_or((indent, line.len() - indent));
+        (self.at + offset, length).into()
+    }
+}
+
+impl SourceCode for Excerpt {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let contents = self.text.read_span(span, before, after)?;
+        let shifted = MietteSpanContents::new_named(
+            self.file.clone(),
+            contents.data(),
+            *contents.span(),
+            contents.line() + self.first,
+            contents.column(),
+            contents.line_count(),
+        );
+        Ok(Box::new(shifted))
+    }
+}
+
+/// A message that is only its place.
+#[derive(Debug, Error)]
+#[error("here")]
+struct Pointed {
+    excerpt: Excerpt,
+    label: LabeledSpan,
+}
+
+impl Diagnostic for Pointed {
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&self.excerpt)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(std::iter::once(self.label.clone())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(text: &str) -> Option<String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.node");
+        std::fs::write(&path, text).unwrap();
+        of(&hexdel_io::read_points(&path).unwrap_err())
+    }
+
+    #[test]
+    fn the_field_is_pointed_at_in_its_line() {
+        let text = drawn("3 2\n0 0 0\n1 1 x7\n2 0 1\n").unwrap();
+        assert!(text.contains("a.node:3:5]"), "{text}");
+        let (number, line) = (text.find("3 |").or(text.find("3 │")), text.find("1 1 x7"));
+        assert!(number.is_some() && number < line, "{text}");
+        assert!(text.contains("expected") && !text.contains("2 0 1"), "{text}");
+    }
+
+    #[test]
+    fn what_cannot_be_shown_is_left() {
+        assert!(drawn("").is_none());
+        assert!(drawn("1 2\n0 0 \u{1b}[31m\n").is_none());
+        assert!(drawn(&format!("1 2\n0 0 {}\n", "x".repeat(500))).is_none());
+    }
+}
