@@ -416,8 +416,8 @@ impl Mesher {
         monitor: &dyn Monitor,
     ) -> Result<Triangulation, Error> {
         let began = Instant::now();
-        let mut refiner =
-            Refiner::new(placement.lattice, start.rules(self.effort)).with_coarsening(!self.without_coarsening);
+        let mut refiner = Refiner::new(placement.lattice, start.rules(self.effort))
+            .with_coarsening(!self.without_coarsening);
         refiner
             .insert(set.sites(), monitor)
             .map_err(|error| Error::of_refinement(error, || placement::unresolved(set)))?;
