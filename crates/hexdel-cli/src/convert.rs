@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(after_help = "\
     Meshes    .ele (with .node), .vtu, .msh, .obj, .off, .mesh, .json, .ron; written only:\n          \
-    .edge, .neigh, .poly, .svg\n\
+    .edge, .neigh, .poly, .svg, .png\n\
     Points    .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron; read only: .geojson,\n          \
     .wkt, .json of CG:SHOP\n\
     A .node is a mesh only where the other side can be nothing else. Markers, regions and\n\

@@ -1,7 +1,7 @@
-//! The program `hexdel`: meshes files of points and segments, checks meshes, makes test
-//! points.
+//! The program `hexdel`: meshes files of points and segments, checks and draws
+//! meshes, makes test points.
 //!
-//! One module per command ([`mesh`], [`check`], [`convert`], [`dual`],
+//! One module per command ([`mesh`], [`check`], [`plot`], [`convert`], [`dual`],
 //! [`generate`], [`session`]), and what they
 //! share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
@@ -14,6 +14,7 @@ mod exit;
 mod generate;
 mod mesh;
 mod outputs;
+mod plot;
 mod progress;
 mod session;
 mod sizing;
@@ -41,6 +42,7 @@ struct Cli {
 enum Command {
     Mesh(mesh::Args),
     Check(check::Args),
+    Plot(plot::Args),
     Convert(convert::Args),
     Dual(dual::Args),
     Generate(generate::Args),
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Plot(args) => plot::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),

@@ -151,9 +151,7 @@ pub fn read_mesh_from(reader: impl BufRead, format: MeshFormat, name: &str) -> R
         MeshFormat::Json => mesh_json::read_json(reader, name),
         MeshFormat::Ron => mesh_ron::read_ron(&Source { bytes: &slurp(reader, name)?, file: name }),
         MeshFormat::NodeEle => Err(ReadError::TwoFiles { file: name.to_owned(), format: ".node/.ele" }),
-        MeshFormat::Edge | MeshFormat::Neigh | MeshFormat::Poly | MeshFormat::Svg => {
-            Err(ReadError::WriteOnly { file: name.to_owned(), format: format.name() })
-        }
+        _ => Err(ReadError::WriteOnly { file: name.to_owned(), format: format.name() }),
     }
 }
 

@@ -9,6 +9,9 @@ use crate::mesh::Mesh;
 /// The largest area of a triangle by the place of its centroid.
 pub type AreaLimit<'a> = &'a (dyn Fn(DVec2) -> f64 + Sync);
 
+/// Whether a triangle with these corners is beyond repair.
+pub type Hopeless<'a> = &'a (dyn Fn([DVec2; 3]) -> bool + Sync);
+
 /// Segments in a mesh, and what holds around them.
 #[derive(Clone, Default)]
 pub struct Constraints<'a> {
@@ -26,6 +29,17 @@ pub struct Constraints<'a> {
     /// vertex on a segment or from one of `points`, instead of those of the
     /// options. They must be wider.
     pub near: AngleBounds,
+    /// Whether an angle that is exactly at a bound of `near`, up to rounding,
+    /// is out of it. Right angles on both sides of an edge leave it to rounding
+    /// whether the edge is Delaunay.
+    pub strict: bool,
+    /// Pairs of segments that meet at so small an angle that no triangle between
+    /// them can keep the lower bound. Of those whose corners all lie on the two
+    /// only the upper bound is asked.
+    pub wedges: Vec<[usize; 2]>,
+    /// Triangles, by their corners, for which changes of topology are not worth
+    /// trying: what surrounds them has no room.
+    pub hopeless: Option<Hopeless<'a>>,
     /// No change makes a triangle larger than this where its centroid lies;
     /// square units of the mesh.
     pub max_area: Option<AreaLimit<'a>>,
@@ -38,22 +52,48 @@ impl std::fmt::Debug for Constraints<'_> {
             .field("edges", &self.edges.len())
             .field("points", &self.points.len())
             .field("near", &self.near)
+            .field("strict", &self.strict)
+            .field("wedges", &self.wedges.len())
+            .field("hopeless", &self.hopeless.is_some())
             .field("max_area", &self.max_area.is_some())
             .finish()
     }
 }
 
+/// A vertex that is on no segment and counts as none.
+pub(crate) const NOWHERE: u32 = u32::MAX;
+
+/// A fixed vertex that counts as a segment does.
+pub(crate) const POINT: u32 = u32::MAX - 1;
+
+/// Whether all corners of a triangle lie on two segments that make a wedge, and
+/// one of them between its ends. `sources` are segments, [`POINT`] or
+/// [`NOWHERE`].
+pub(crate) fn in_wedge(lines: &[Line], sources: [u32; 3], corners: [DVec2; 3]) -> bool {
+    let Some(&first) = sources.iter().find(|&&s| s < POINT) else { return false };
+    let wedges = &lines[first as usize].wedges;
+    if wedges.is_empty() || sources.contains(&NOWHERE) {
+        return false;
+    }
+    let on = |i: usize, line: u32| {
+        sources[i] == line || (sources[i] == POINT && lines[line as usize].ends.contains(&corners[i]))
+    };
+    wedges.iter().any(|&second| (0..3).all(|i| on(i, first) || on(i, second)))
+}
+
 /// A segment that vertices slide along.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Line {
     pub(crate) ends: [DVec2; 2],
     /// Unit vector from the first end to the second.
     pub(crate) along: DVec2,
+    /// Those that it makes a wedge with.
+    pub(crate) wedges: Vec<u32>,
 }
 
 impl Line {
     pub(crate) fn new(ends: [DVec2; 2]) -> Self {
-        Self { ends, along: (ends[1] - ends[0]).normalize_or_zero() }
+        Self { ends, along: (ends[1] - ends[0]).normalize_or_zero(), wedges: Vec::new() }
     }
 
     /// The rounded point of the segment nearest to `p`.
@@ -70,6 +110,7 @@ pub(crate) struct Rules<'a> {
     far: Limits,
     near: Limits,
     max_area: Option<AreaLimit<'a>>,
+    hopeless: Option<Hopeless<'a>>,
 }
 
 impl std::fmt::Debug for Rules<'_> {
@@ -82,8 +123,13 @@ impl<'a> Rules<'a> {
     pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
         Self {
             far: Limits::new(bounds),
-            near: Limits::new(constraints.map_or(bounds, |c| c.near)),
+            near: match constraints {
+                None => Limits::new(bounds),
+                Some(c) if c.strict => Limits::new(c.near).without_tolerance(),
+                Some(c) => Limits::new(c.near),
+            },
             max_area: constraints.and_then(|c| c.max_area),
+            hopeless: constraints.and_then(|c| c.hopeless),
         }
     }
 
@@ -108,7 +154,14 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(crate) fn is_good(&self, mesh: &Mesh, t: u32) -> bool {
         let place = mesh.place(t);
-        self.limits(place).loose(&place.view(mesh.measure(t)))
+        self.is_within(place, mesh.measure(t))
+    }
+
+    /// Whether a triangle at such a place keeps its bounds.
+    #[inline]
+    pub(crate) fn is_within(&self, place: Place, m: Measure) -> bool {
+        let limits = self.limits(place);
+        limits.loose(&place.view(m, limits))
     }
 
     /// Whether a triangle is no larger than it may be.
@@ -126,6 +179,11 @@ impl<'a> Rules<'a> {
             limit((a + b + c) / 3.0)
         });
         area <= count as f64 * largest.fold(0.0, f64::max)
+    }
+
+    /// Whether it is of no use to look for a better triangle here.
+    pub(crate) fn is_hopeless(&self, corners: [DVec2; 3]) -> bool {
+        self.hopeless.is_some_and(|hopeless| hopeless(corners))
     }
 
     pub(crate) fn limits_areas(&self) -> bool {

@@ -3,7 +3,7 @@
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use rayon::prelude::*;
 
-use crate::constraints::{Constraints, Line};
+use crate::constraints::{Constraints, Line, NOWHERE, POINT};
 use crate::error::OptimizeError;
 use crate::mesh::{Around, Mesh, Motion, NONE, Soup, Vertices, opening};
 use crate::options::VertexKind;
@@ -54,8 +54,9 @@ pub(crate) fn import(
 
 /// Marks edges, segments and points.
 fn constrain(soup: &mut Soup, constraints: &Constraints<'_>) -> Result<(), OptimizeError> {
-    soup.lines = constraints.segments.iter().map(|&ends| Line::new(ends)).collect();
-    soup.source = soup.motion.iter().map(|m| matches!(m, Motion::On(_))).collect();
+    soup.lines = lines(constraints)?;
+    let source = |m: &Motion| if let Motion::On(line) = *m { line } else { NOWHERE };
+    soup.source = soup.motion.iter().map(source).collect();
     let count = soup.lines.len();
     let unknown = |m: &Motion| match *m {
         Motion::On(line) if line as usize >= count => Some(line as usize),
@@ -67,7 +68,7 @@ fn constrain(soup: &mut Soup, constraints: &Constraints<'_>) -> Result<(), Optim
     let count = soup.pos.len();
     for p in &constraints.points {
         let no_such = OptimizeError::NoSuchItem { what: "vertex", index: p.index(), count };
-        *soup.source.get_mut(p.index()).ok_or(no_such)? = true;
+        *soup.source.get_mut(p.index()).ok_or(no_such)? = POINT;
     }
     let mut edges: Vec<[usize; 2]> =
         constraints.edges.iter().map(|[a, b]| [a.index().min(b.index()), a.index().max(b.index())]).collect();
@@ -87,6 +88,18 @@ fn constrain(soup: &mut Soup, constraints: &Constraints<'_>) -> Result<(), Optim
         None => Ok(()),
         Some(i) => Err(OptimizeError::NoSuchEdge { edge: edges[i].map(VertexId::new) }),
     }
+}
+
+fn lines(constraints: &Constraints<'_>) -> Result<std::sync::Arc<[Line]>, OptimizeError> {
+    let mut lines: Vec<Line> = constraints.segments.iter().map(|&ends| Line::new(ends)).collect();
+    let count = lines.len();
+    for &[a, b] in &constraints.wedges {
+        for (of, with) in [(a, b), (b, a)] {
+            let no_such = OptimizeError::NoSuchItem { what: "segment", index: of, count };
+            lines.get_mut(of).ok_or(no_such)?.wedges.push(with as u32);
+        }
+    }
+    Ok(lines.into())
 }
 
 /// The edges that must stay, each once.

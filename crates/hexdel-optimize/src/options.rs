@@ -25,6 +25,8 @@ pub enum VertexKind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Effort {
+    /// Only brings angles inside the bounds; vertices go where that helps.
+    Repair,
     /// Repair, and the cheapest pass of removals: three times the triangles of
     /// standard in a fifth of the time.
     Fast,

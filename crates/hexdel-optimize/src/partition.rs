@@ -221,7 +221,7 @@ pub(crate) fn extract(soup: &Soup, seams: &Seams, cuts: &Cuts, index: usize) -> 
 }
 
 /// The values of some vertices; none where there are none of any.
-fn of(vertices: &[u32], values: &[bool]) -> Vec<bool> {
+fn of<T: Copy>(vertices: &[u32], values: &[T]) -> Vec<T> {
     if values.is_empty() { Vec::new() } else { vertices.iter().map(|&v| values[v as usize]).collect() }
 }
 
@@ -258,7 +258,7 @@ pub(crate) fn merge(soup: &Soup, cuts: &Cuts, parts: &[Part]) -> Soup {
             if part.mesh.alive(i as u32) {
                 out.push(part.mesh.pos[i], part.mesh.motion[i], part.mesh.sector[i], NONE, part.failed[i]);
                 if soup.is_constrained() {
-                    out.source.push(part.mesh.is_on_source(i as u32));
+                    out.source.push(part.mesh.source(i as u32));
                 }
             }
         }

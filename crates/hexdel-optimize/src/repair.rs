@@ -41,7 +41,7 @@ pub(crate) fn step(round: usize) -> Step {
 }
 
 /// The motions that come before each pass of removals.
-const MOVES: [&[usize]; 2] = [&[0, 1], &[2]];
+pub(crate) const MOVES: [&[usize]; 2] = [&[0, 1], &[2]];
 
 /// The steps of each round of search, after which a mesh is given up.
 pub(crate) const SEARCH: [(usize, usize); 7] =
@@ -214,7 +214,7 @@ fn attempt(
     join(&mut verts);
     load_rings(work, &verts, rings);
     let before = work.patch.state(work.rules).energy;
-    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+    if !apply(&mut work.mesh, (work.rules, work.refills), action, &mut verts) {
         work.mesh.rollback();
         return None;
     }

@@ -141,6 +141,13 @@ const HOPELESS: usize = 20;
 /// tenths of a second.
 const BATCH: usize = 8;
 
+/// Triangles that are rescued in a mesh with segments, at most: each takes some
+/// tenths of a second.
+const FEW: usize = 4;
+
+/// Rounds of search that hopeless triangles take part in.
+const HOPEFUL_ROUNDS: usize = 2;
+
 /// Why the work ends early.
 enum Stop {
     OutOfTime,
@@ -183,8 +190,10 @@ impl<'a> Run<'a> {
     /// alone does not settle often goes with a vertex, and search is cheaper on
     /// the coarser mesh.
     fn all(&mut self) -> Result<(), Stop> {
-        let passes = if self.options.effort == Effort::Fast { FAST_PASSES } else { STANDARD_PASSES };
-        self.decimate(0, passes)?;
+        match self.passes() {
+            0 => self.move_all()?,
+            passes => self.decimate(0, passes)?,
+        }
         self.search()?;
         if self.options.effort == Effort::Best {
             self.decimate(STANDARD_PASSES, PASSES.len())?;
@@ -197,12 +206,20 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Passes of removals before the first search.
+    fn passes(&self) -> usize {
+        match self.options.effort {
+            Effort::Repair => 0,
+            Effort::Fast => FAST_PASSES,
+            Effort::Standard | Effort::Best => STANDARD_PASSES,
+        }
+    }
+
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        let once = repair::SEARCH.len() + RESCUE_RINGS.len();
+        let once = repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
         match self.options.effort {
-            Effort::Fast => once + FAST_PASSES,
-            Effort::Standard => once + STANDARD_PASSES,
+            Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),
             Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),
         }
     }
@@ -218,11 +235,23 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Motion alone, over the whole mesh.
+    fn move_all(&mut self) -> Result<(), Stop> {
+        self.guard = None;
+        for i in 0..repair::MOVES.len() {
+            if self.bad().is_empty() {
+                break;
+            }
+            self.round(|work| repair::moves(work, i))?;
+        }
+        Ok(())
+    }
+
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
         self.guard = None;
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
-            let bad = self.bad();
+            let bad = self.hopeful(i < HOPEFUL_ROUNDS);
             if bad.is_empty() {
                 break;
             }
@@ -231,15 +260,24 @@ impl<'a> Run<'a> {
             self.round_of(&cuts, |work| search(work, steps))?;
         }
         for rings in RESCUE_RINGS {
-            let bad = self.bad();
-            // Between segments that meet at less than the bound no refinement helps.
-            if self.soup.is_constrained() || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+            let bad = self.hopeful(false);
+            // Graphs with many bad spots are better made anew with a finer start.
+            let many = self.soup.is_constrained() && bad.len() > FEW;
+            if many || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
             self.round_of(&cuts, rescue)?;
         }
         Ok(())
+    }
+
+    /// Triangles outside the bounds for which there is hope, or all.
+    fn hopeful(&self, all: bool) -> Vec<u32> {
+        let corners = |t: u32| self.soup.tris[t as usize].map(|v| self.soup.pos[v as usize]);
+        let mut bad = self.bad();
+        bad.retain(|&t| all || !self.rules.is_hopeless(corners(t)));
+        bad
     }
 
     /// Triangles outside the bounds.
@@ -249,7 +287,7 @@ impl<'a> Run<'a> {
             let t = t as usize;
             let [a, b, c] = self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
             let place = self.soup.place(t, &near);
-            !self.rules.limits(place).loose(&place.view(Measure::of(a, b, c)))
+            !self.rules.is_within(place, Measure::of(a, b, c))
         };
         (0..self.soup.tris.len() as u32).filter(is_bad).collect()
     }

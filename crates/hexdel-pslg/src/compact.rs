@@ -9,6 +9,7 @@ use crate::fit::count_rings;
 use crate::fit::judge::Judge;
 use crate::geometry::fraction;
 use crate::net::{Kind, NONE, Net};
+use crate::sectors::{Sector, sector_near, wedge_pairs};
 use crate::validate::Piece;
 use hexdel_geom::{Cancelled, DVec2, Monitor, TriMesh, VertexId};
 use hexdel_optimize::{
@@ -19,8 +20,12 @@ use rustc_hash::FxHashMap;
 /// What the mesh must keep.
 pub(crate) struct Kept<'a> {
     pub(crate) pieces: &'a [Piece],
+    pub(crate) sectors: &'a [Sector],
+    pub(crate) sites: &'a [DVec2],
     pub(crate) judge: Judge<'a>,
     pub(crate) areas: Option<&'a AreaLimits<'a>>,
+    /// Whether right angles near segments are to go, too.
+    pub(crate) strict: bool,
 }
 
 /// Takes vertices out of a net. It stays as it was if more triangles would be
@@ -33,11 +38,17 @@ pub(crate) fn compact(
 ) -> Result<Net, Cancelled> {
     let taken = Taken::of(&net);
     let limit = |p: DVec2| kept.areas.map_or(f64::INFINITY, |areas| areas.at(p));
+    let hopeless = |corners: [DVec2; 3]| {
+        sector_near(corners, kept.sectors, kept.sites).is_some_and(|(s, _)| s.is_hopeless())
+    };
     let constraints = Constraints {
         segments: net.lines.clone(),
         edges: taken.edges.clone(),
         points: taken.sites(),
         near: kept.judge.near,
+        strict: kept.strict,
+        wedges: wedge_pairs(kept.sectors).iter().map(|pair| pair.map(|p| p as usize)).collect(),
+        hopeless: Some(&hopeless),
         max_area: kept.areas.map(|_| &limit as _),
     };
     let options = Options::new(kept.judge.far, effort);

@@ -242,7 +242,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         if parts.method == SegmentMethod::Paper && is_near() {
             return entry(t, Reason::Template);
         }
-        let near = sector_near(net, t, parts.sectors, parts.input.points.sites());
+        let near = sector_near(net.corners(t), parts.sectors, parts.input.points.sites());
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
             point: point(sector.site),
             angle_deg: sector.angle_deg,
@@ -251,14 +251,20 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         entry(t, reason)
     });
     let failed: Vec<Exception> = failed.collect();
+    let narrow = |t: u32| {
+        let (sector, _) = sector_near(net.corners(t), parts.sectors, parts.input.points.sites())?;
+        Some(Reason::Sector { point: point(sector.site), angle_deg: sector.angle_deg })
+    };
     let sector = |t: u32| {
         let angles = quality::angles_deg(net.corners(t));
-        (0..3).find_map(|i| match net.vertex(net.tri(t).v[i]).kind {
-            Kind::Site(site) if angles[i] < least && is_sector(net, t, i) => {
-                Some(Reason::Sector { point: point(site), angle_deg: angles[i] })
-            }
-            _ => None,
-        })
+        (0..3)
+            .find_map(|i| match net.vertex(net.tri(t).v[i]).kind {
+                Kind::Site(site) if angles[i] < least && is_sector(net, t, i) => {
+                    Some(Reason::Sector { point: point(site), angle_deg: angles[i] })
+                }
+                _ => None,
+            })
+            .or_else(|| if angles.iter().any(|&a| a < least - 1e-6) { narrow(t) } else { None })
     };
     let exempt = net
         .alive()

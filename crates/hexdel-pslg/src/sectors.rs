@@ -2,7 +2,6 @@
 
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
-use crate::net::Net;
 use crate::validate::Piece;
 use hexdel_geom::{DVec2, quality};
 use std::f64::consts::TAU;
@@ -33,10 +32,14 @@ impl Sector {
     }
 }
 
+/// The pieces on both sides of each sector that is given up.
+pub(crate) fn wedge_pairs(sectors: &[Sector]) -> Vec<[u32; 2]> {
+    sectors.iter().filter(|s| s.is_hopeless()).map(|s| s.pieces).collect()
+}
+
 /// The sectors that are given up.
 pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
-    let pairs: Vec<[u32; 2]> = sectors.iter().filter(|s| s.is_hopeless()).map(|s| s.pieces).collect();
-    Wedges::of(&pairs, pieces.iter().map(|p| p.ends).collect())
+    Wedges::of(&wedge_pairs(sectors), pieces.iter().map(|p| p.ends).collect())
 }
 
 /// All sectors narrower than `least_deg`.
@@ -98,8 +101,11 @@ const SPREAD: f64 = 3.0;
 ///
 /// At a distance `r` from the corner the sector is `r sin(angle)` wide; where
 /// that is less than an edge nothing between its sides has good angles.
-pub(crate) fn sector_near(net: &Net, t: u32, sectors: &[Sector], sites: &[DVec2]) -> Option<(Sector, f64)> {
-    let [a, b, c] = net.corners(t);
+pub(crate) fn sector_near(
+    [a, b, c]: [DVec2; 3],
+    sectors: &[Sector],
+    sites: &[DVec2],
+) -> Option<(Sector, f64)> {
     let centre = (a + b + c) / 3.0;
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
     let blamed = |s: &Sector| {

@@ -32,7 +32,8 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
         .with_input_indices(&inputs)
         .with_vertex_markers(&made.vertex_markers)
         .with_marked_edges(&edges)
-        .with_certificate(&made.certificate);
+        .with_certificate(&made.certificate)
+        .with_picture(args.picture.picture(made.certificate.bounds));
     if let Some(regions) = &regions {
         view = view.with_regions(regions);
     }

@@ -5,6 +5,7 @@ mod points;
 
 use crate::exit::{Failure, Outcome, warn};
 use crate::outputs::{Content, Outputs};
+use crate::plot::{Colour, PictureArgs};
 use clap::ValueEnum;
 use hexdel::geom::BoundsError;
 use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg};
@@ -17,9 +18,13 @@ use std::time::Duration;
 /// at segments
 #[derive(clap::Args)]
 #[command(
+    mut_arg("colour", |arg| arg.hide(true)),
+    mut_arg("histogram", |arg| arg.hide(true)),
+    mut_arg("zoom", |arg| arg.hide(true)),
+    mut_arg("size", |arg| arg.hide(true)),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
-Input: .node .poly .csv .tsv .xyz .txt .pts   Output: .ele (with .node) .vtu .ron .svg
+Input: .node .poly .csv .tsv .xyz .txt .pts   Output: .ele (with .node) .vtu .ron .svg .png
 Examples:
   hexdel mesh cities.csv -o cities.ele -o cities.svg --grid
   hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
@@ -71,9 +76,11 @@ pub(crate) struct Args {
     /// Write the figures of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Show the hexagons in pictures
+    /// Show the hexagons in pictures; more of these: hexdel plot --help
     #[arg(long)]
     grid: bool,
+    #[command(flatten)]
+    picture: PictureArgs,
     /// Print nothing but warnings and errors
     #[arg(short, long)]
     quiet: bool,
@@ -130,11 +137,18 @@ fn tolerance(text: &str) -> Result<f64, String> {
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
     let input = hexdel_io::read_points(&args.input)?;
-    if args.is_for_graphs(&input) {
-        graph::run(args, &outputs, &input)
-    } else {
-        points::run(args, &outputs, &input)
+    let for_graphs = args.is_for_graphs(&input);
+    if args.picture.colour.is_some_and(Colour::needs_hexagons) {
+        let of = match args.method() {
+            _ if for_graphs => Some("the mesh of a graph"),
+            Method::Compact => Some("the compact method"),
+            _ => None,
+        };
+        if let Some(of) = of {
+            return Err(Failure::NoHexagons { of: of.to_owned() });
+        }
     }
+    if for_graphs { graph::run(args, &outputs, &input) } else { points::run(args, &outputs, &input) }
 }
 
 fn outputs(args: &Args) -> Result<Outputs, Failure> {

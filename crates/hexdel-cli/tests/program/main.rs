@@ -9,4 +9,5 @@ mod dual;
 mod generate;
 mod graph;
 mod mesh;
+mod plot;
 mod support;

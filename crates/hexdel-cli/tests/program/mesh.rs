@@ -79,8 +79,8 @@ fn options_reach_the_mesher() {
         bench.run(&format!("mesh {input} -q -o p.svg {options}")).fine();
         String::from_utf8(bench.read("p.svg")).unwrap()
     };
-    assert!(picture("--grid").contains("hexagons by class"));
-    assert!(!picture("").contains("hexagons by class"));
+    assert!(picture("--grid").contains(">hexagons<"));
+    assert!(!picture("").contains(">hexagons<"));
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn an_older_file_is_replaced_only_by_a_complete_one() {
 #[test]
 fn help_fits_a_screen() {
     let bench = Bench::new();
-    for command in ["dual", "", "mesh", "check", "generate"] {
+    for command in ["", "mesh", "check", "plot", "dual", "generate"] {
         let run = bench.run(&format!("{command} --help"));
         run.fine();
         assert!(run.out.contains("Example"), "{command}");

@@ -69,8 +69,7 @@ impl Cut {
             around: Around::default(),
         };
         let failed = vertices.iter().map(|&v| store.vertex(v).failed).collect();
-        let mesh = Mesh::build(parts, &tris, &vec![0; tris.len()])
-            .expect("a part of a manifold is one but for its seam");
+        let mesh = Mesh::build(parts, &tris, &[]).expect("a part of a manifold is one but for its seam");
         Self { triangles, vertices, mesh, failed }
     }
 

@@ -6,7 +6,7 @@ use hexdel_geom::DVec2;
 
 use super::{Mesh, Motion, NONE, Tri};
 use crate::angles::Place;
-use crate::constraints::Line;
+use crate::constraints::{Line, NOWHERE, in_wedge};
 
 /// A mesh as arrays: what is kept between the rounds of work. Those of vertices
 /// are as long as `pos`.
@@ -24,9 +24,9 @@ pub(crate) struct Soup {
     pub(crate) tris: Vec<[u32; 3]>,
     /// The sides of each triangle that must stay, as in `Tri`.
     pub(crate) bound: Vec<u8>,
-    /// Whether each vertex lies on a segment, or is a point that counts as
-    /// one; empty if there are none.
-    pub(crate) source: Vec<bool>,
+    /// The segment that each vertex lies on, `POINT` or `NOWHERE`; empty if
+    /// there are no segments and points that bounds depend on.
+    pub(crate) source: Vec<u32>,
     /// What [`Motion::On`] refers to.
     pub(crate) lines: Arc<[Line]>,
 }
@@ -40,10 +40,10 @@ impl Soup {
     /// Whether each vertex is at most one edge away from a source; empty if
     /// there are none.
     pub(crate) fn near(&self) -> Vec<bool> {
-        let mut near = self.source.clone();
+        let mut near: Vec<bool> = self.source.iter().map(|&s| s != NOWHERE).collect();
         if self.is_constrained() {
             for t in &self.tris {
-                if t.iter().any(|&v| self.source[v as usize]) {
+                if t.iter().any(|&v| self.source[v as usize] != NOWHERE) {
                     for &v in t {
                         near[v as usize] = true;
                     }
@@ -58,7 +58,12 @@ impl Soup {
         if near.is_empty() {
             return Place::default();
         }
-        Place::new(self.tris[t].iter().any(|&v| near[v as usize]), self.bound[t])
+        let v = self.tris[t];
+        let sources = v.map(|v| self.source[v as usize]);
+        if in_wedge(&self.lines, sources, v.map(|v| self.pos[v as usize])) {
+            return Place::in_wedge();
+        }
+        Place::new(v.iter().any(|&v| near[v as usize]), self.bound[t])
     }
 }
 
@@ -83,14 +88,15 @@ pub(crate) struct Vertices {
 #[derive(Default)]
 pub(crate) struct Around {
     /// As in `Soup`.
-    pub(crate) source: Vec<bool>,
+    pub(crate) source: Vec<u32>,
     /// As [`Soup::near`] says.
     pub(crate) near: Vec<bool>,
     pub(crate) lines: Arc<[Line]>,
 }
 
 impl Mesh {
-    /// Builds the mesh of `tris` with the sides `bound`.
+    /// Builds the mesh of `tris`; `bound` are the sides of each that must stay,
+    /// or empty if there are none.
     ///
     /// # Complexity
     ///
@@ -105,8 +111,9 @@ impl Mesh {
                 degree[v as usize] += 1;
             }
         }
+        let bound = bound.iter().copied().chain(std::iter::repeat(0));
         let tri =
-            tris.iter().zip(neighbours).zip(bound).map(|((&v, n), &bound)| Tri { v, n, bound }).collect();
+            tris.iter().zip(neighbours).zip(bound).map(|((&v, n), bound)| Tri { v, n, bound }).collect();
         let Around { source, near, lines } = around;
         let constrained = !source.is_empty();
         let journal = Vec::new();

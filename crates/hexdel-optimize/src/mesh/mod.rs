@@ -20,7 +20,7 @@ use std::sync::Arc;
 use hexdel_geom::DVec2;
 
 use crate::angles::Measure;
-use crate::constraints::Line;
+use crate::constraints::{Line, NOWHERE};
 
 /// No triangle, no vertex.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -109,8 +109,8 @@ pub(crate) struct Mesh {
     degree: Vec<u16>,
     /// Whether there are segments, and `source` and `near` are in use.
     constrained: bool,
-    /// Whether each vertex lies on a segment, or is a point that counts as one.
-    source: Vec<bool>,
+    /// The segment that each vertex lies on, `POINT` or `NOWHERE`.
+    source: Vec<u32>,
     /// Of frozen vertices: whether they are near a source in the whole mesh.
     near: Vec<bool>,
     /// What [`Motion::On`] refers to.
@@ -276,7 +276,7 @@ impl Mesh {
         self.anchor.push(NONE);
         self.degree.push(0);
         if self.constrained {
-            self.source.push(matches!(motion, Motion::On(_)));
+            self.source.push(if let Motion::On(line) = motion { line } else { NOWHERE });
             self.near.push(false);
         }
         self.journal.push(Change::NewVertex);
@@ -344,9 +344,14 @@ impl Mesh {
         self.constrained
     }
 
+    /// As of `source`.
+    pub(crate) fn source(&self, v: u32) -> u32 {
+        self.source[v as usize]
+    }
+
     /// Whether vertex `v` lies on a segment or counts as one.
     pub(crate) fn is_on_source(&self, v: u32) -> bool {
-        self.source[v as usize]
+        self.source[v as usize] != NOWHERE
     }
 
     /// The segment of a vertex that slides along one.

@@ -5,6 +5,7 @@ use hexdel_geom::DVec2;
 
 use super::{Mesh, Motion, NONE};
 use crate::angles::Place;
+use crate::constraints::in_wedge;
 
 impl Mesh {
     /// Whether `v` is at most one edge away from a segment or a fixed point
@@ -16,7 +17,7 @@ impl Mesh {
         match self.motion[v as usize] {
             // Other parts keep what makes it so.
             Motion::Frozen => self.near[v as usize],
-            _ => self.source[v as usize] || self.touches_source(v),
+            _ => self.is_on_source(v) || self.touches_source(v),
         }
     }
 
@@ -28,7 +29,7 @@ impl Mesh {
     }
 
     fn is_source(&self, w: u32, not: u32) -> bool {
-        w != not && self.source[w as usize]
+        w != not && self.is_on_source(w)
     }
 
     /// Where triangle `t` lies.
@@ -38,7 +39,16 @@ impl Mesh {
             return Place::default();
         }
         let tri = self.tri[t as usize];
+        if self.in_wedge(tri.v) {
+            return Place::in_wedge();
+        }
         Place::new(tri.v.iter().any(|&v| self.is_near(v)), tri.bound)
+    }
+
+    /// Whether a triangle with these corners lies in a wedge.
+    pub(crate) fn in_wedge(&self, v: [u32; 3]) -> bool {
+        let sources = v.map(|v| self.source[v as usize]);
+        in_wedge(&self.lines, sources, v.map(|v| self.pos[v as usize]))
     }
 
     /// The angle between the segments or sides of the domain that enclose

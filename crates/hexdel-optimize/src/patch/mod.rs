@@ -147,7 +147,8 @@ impl Patch {
         self.near.extend(self.verts.iter().map(|&v| mesh.is_near(v)));
         for ((place, t), id) in self.places.iter_mut().zip(&self.tris).zip(&self.ids) {
             let near = t.iter().any(|&v| self.near[v as usize]);
-            *place = Place::new(near, mesh.tri[*id as usize].bound);
+            let tri = mesh.tri[*id as usize];
+            *place = if mesh.in_wedge(tri.v) { Place::in_wedge() } else { Place::new(near, tri.bound) };
         }
     }
 
@@ -233,7 +234,7 @@ fn evaluate(
         if limits.on_target(&m) {
             continue;
         }
-        let m = place.view(m);
+        let m = place.view(m, limits);
         solved &= limits.strict(&m);
         if !m.cross.is_finite() {
             energy = f64::INFINITY;

@@ -53,6 +53,9 @@ impl Judge<'_> {
 
     fn ordinary_limits(&self, net: &Net, t: u32, strict: bool) -> [Limits; 3] {
         let tri = net.tri(t);
+        if !strict && self.wedges.hold(net, tri.v) {
+            return [[0.0, self.near.max_deg()]; 3];
+        }
         let is_near = tri.v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
         let bounds = if is_near { self.near } else { self.far };
         let [lo, hi] = [bounds.min_deg(), bounds.max_deg()];
@@ -79,9 +82,9 @@ impl Judge<'_> {
     }
 }
 
-/// Limits of triangles that span a wedge: counter-clockwise, and not so flat as
-/// to keep what is around from being any good.
-const WEDGE_LIMITS: Limits = [0.0, 100.0];
+/// Limits of triangles that span a wedge: counter-clockwise, and not so flat that
+/// an edge would not be Delaunay.
+const WEDGE_LIMITS: Limits = [0.0, 90.0];
 
 /// Pairs of pieces that leave a site at so small an angle that triangles
 /// between them cannot keep any bounds. Least squares would spread their fault

@@ -210,6 +210,47 @@ fn letter_r() -> Pslg {
     pslg
 }
 
+/// Two segments that meet at an angle, of lengths that differ.
+pub fn wedge(angle_deg: f64, seed: u64) -> Pslg {
+    let mut random = Random::new(seed);
+    let turn = random.within(0.0, TAU);
+    let ends = [0.0, angle_deg.to_radians()].map(|a| DVec2::from_angle(turn + a) * random.within(0.5, 1.0));
+    chain(&[ends[0], DVec2::ZERO, ends[1]], false)
+}
+
+/// Segments of different lengths from one point, evenly around it.
+pub fn rays(n: u32, seed: u64) -> Pslg {
+    let mut random = Random::new(seed);
+    let turn = random.within(0.0, TAU);
+    let mut pslg = Pslg::from_points(vec![DVec2::ZERO]);
+    for i in 0..n {
+        let direction = DVec2::from_angle(turn + f64::from(i) * TAU / f64::from(n));
+        pslg.points.push(direction * random.within(0.5, 1.0));
+        pslg.segments.push([0, i + 1]);
+    }
+    pslg
+}
+
+/// A closed curve of `6 * 2^k` segments, at least `least`: a hexagon whose sides
+/// are divided again and again, each middle moved across by 4 to 11 per cent of
+/// the length. A side and all that comes of it stay in a rhombus whose height to
+/// either side is a quarter of the side, so that the curve does not cross itself.
+pub fn coastline(least: usize, seed: u64) -> Pslg {
+    let mut random = Random::new(seed);
+    let mut points: Vec<DVec2> = (0..6).map(|i| DVec2::from_angle(f64::from(i) * TAU / 6.0)).collect();
+    while points.len() < least {
+        let n = points.len();
+        points = (0..n)
+            .flat_map(|i| {
+                let (a, b) = (points[i], points[(i + 1) % n]);
+                let across = random.within(0.04, 0.11) * if random.below(2) == 0 { 1.0 } else { -1.0 };
+                [a, a.midpoint(b) + (b - a).perp() * across]
+            })
+            .collect();
+    }
+    chain(&points, true)
+}
+
 /// A small random graph: sometimes on a coarse grid, so that points coincide
 /// and segments overlap, touch and cross.
 pub fn random_graph(seed: u64) -> Pslg {
