@@ -77,6 +77,12 @@ impl Refills {
         out.truncate(keep);
     }
 
+    /// How many refills a ring of so many corners has.
+    #[cfg(test)]
+    pub(crate) fn count(&self, corners: usize) -> usize {
+        self.of[corners].len()
+    }
+
     /// The triangles of refill `index` of a ring, or none where one of its
     /// diagonals is an edge elsewhere.
     pub(crate) fn triangles(

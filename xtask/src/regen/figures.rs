@@ -1,4 +1,4 @@
-//! The figures of `docs/algorithm.md`.
+//! The figures of `docs/algorithm.md`, and the pair of meshes in the README.
 //!
 //! Two kinds: fixtures as the facade meshes them (paper, Fig. 3, 4, 5 and 7),
 //! and the templates of relocation, each on the smallest grid that has it
@@ -32,6 +32,7 @@ pub(super) fn all(root: &Path) -> Result<Files, Box<dyn Error>> {
     figures.extend(of_grid()?);
     figures.extend(of_templates()?);
     figures.extend(of_points()?);
+    figures.extend(of_methods(root, "plane100")?);
     Ok(figures.into_iter().map(|(name, svg)| (format!("{FOLDER}/{name}"), svg)).collect())
 }
 
@@ -56,6 +57,24 @@ fn of_fixture(root: &Path, name: &str) -> Result<BTreeMap<String, Vec<u8>>, Box<
         figures.insert(format!("{name}-{suffix}-mesh.svg"), drawing.svg(Show::Mesh)?);
     }
     Ok(figures)
+}
+
+/// The same points by templates and made compact.
+fn of_methods(root: &Path, name: &str) -> Figures {
+    let points = read_points(root.join(format!("fixtures/points/{name}.node")))?.points;
+    let methods = [(Method::Templates, "templates"), (Method::Compact, "compact")];
+    let draw = |(method, suffix): (Method, &str)| {
+        let made = Mesher::new().method(method).triangulate(&points)?;
+        let drawing = Drawing {
+            mesh: &made.mesh,
+            inputs: made.input_of_vertex(),
+            overlay: Overlay::default(),
+            bounds: method.bounds(),
+            size_px: LARGE_PX,
+        };
+        Ok((format!("{name}-{suffix}.svg"), drawing.svg(Show::Mesh)?))
+    };
+    methods.into_iter().map(draw).collect()
 }
 
 /// Subdivision and balance (paper, Fig. 1 and 2), with the plain dual.

@@ -11,6 +11,7 @@ impl Mesh {
     /// 3. A vertex's anchor is a live triangle at the vertex.
     /// 4. Neighbours agree on whether the side between them must stay.
     /// 5. The triangles at a vertex that is not frozen form one fan.
+    /// 6. A vertex that is not frozen has as many triangles as its degree says.
     ///
     /// # Complexity
     ///
@@ -43,6 +44,9 @@ impl Mesh {
             self.around(v, |_, _| fan += 1);
             if self.motion[v as usize] != Motion::Frozen && fan != at[v as usize] {
                 return Err(format!("vertex {v} has {} triangles, {fan} in one fan", at[v as usize]));
+            }
+            if self.motion[v as usize] != Motion::Frozen && fan != self.degree(v) {
+                return Err(format!("vertex {v} has {fan} triangles, not {}", self.degree(v)));
             }
         }
         Ok(())

@@ -9,6 +9,8 @@ mod check;
 mod convert;
 mod ops;
 mod place;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use convert::{Around, Soup, Vertices};
 pub(crate) use place::opening;
