@@ -13,7 +13,6 @@ use hexdel::{
     SegmentMethod, TriangleId, triangulate_pslg,
 };
 use std::sync::Mutex;
-use std::time::Duration;
 
 fn area(made: &PslgTriangulation) -> f64 {
     let corners = (0..made.mesh.triangles.len()).map(|t| made.mesh.corners(TriangleId::new(t)));
