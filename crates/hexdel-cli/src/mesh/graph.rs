@@ -1,10 +1,9 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
 use super::{Args, limited, write};
-use crate::exit::{Outcome, Verdict, print, warn};
+use crate::exit::{Failure, Outcome, Verdict, print, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
-use hexdel::geom::BoundsError;
 use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation};
 use hexdel_io::{MarkedEdge, MeshView};
 use std::fmt::{Display, Write as _};
@@ -46,7 +45,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
     Ok(if made.holds() { Verdict::Holds } else { Verdict::Fails })
 }
 
-fn mesher(args: &Args) -> Result<Mesher, BoundsError> {
+fn mesher(args: &Args) -> Result<Mesher, Failure> {
     let mut mesher = args.mesher();
     if args.min_angle.is_some() || args.max_angle.is_some() {
         let usual = AngleBounds::new(30.0, 90.0)?;
@@ -54,6 +53,9 @@ fn mesher(args: &Args) -> Result<Mesher, BoundsError> {
     }
     if let Some(domain) = args.domain() {
         mesher = mesher.domain(domain);
+    }
+    if let Some(size) = args.sizing()? {
+        mesher = mesher.size(size);
     }
     if let Some(area) = args.max_area {
         mesher = mesher.max_area(area);

@@ -8,4 +8,5 @@ mod dual;
 mod generate;
 mod graph;
 mod mesh;
+mod session;
 mod support;

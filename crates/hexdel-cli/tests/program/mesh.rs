@@ -184,7 +184,7 @@ fn an_older_file_is_replaced_only_by_a_complete_one() {
 #[test]
 fn help_fits_a_screen() {
     let bench = Bench::new();
-    for command in ["dual", "", "mesh", "check", "generate"] {
+    for command in ["dual", "", "mesh", "check", "generate", "session"] {
         let run = bench.run(&format!("{command} --help"));
         run.fine();
         assert!(run.out.contains("Example"), "{command}");
