@@ -2,7 +2,8 @@
 //! of what fails fastest.
 //!
 //! The steps are run as a person would type them; this task installs nothing
-//! and needs the Rust toolchain with rustfmt and clippy.
+//! and needs the Rust toolchain with rustfmt and clippy. One test of `hexdel-io`
+//! puts meshio below `target/`, and says so if it cannot.
 
 use crate::Outcome;
 use crate::tidy;

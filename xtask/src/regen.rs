@@ -1,20 +1,28 @@
 //! `cargo xtask regen`: everything in the repository that is computed from
 //! something else in it.
 //!
-//! The records of the snapshot tests and the figures of the documents are
-//! written anew from the fixtures or, with `--check`, compared with what they
-//! would be. Both are the same bytes on every platform. What a record is made
-//! of is the business of the tests, what a figure shows that of [`figures`].
+//! The records of the snapshot tests, the figures of the documents and the gallery
+//! are written anew from the fixtures or, with `--check`, compared with what they
+//! would be. All are the same bytes on every platform. What a record is made of is
+//! the business of the tests, what a figure shows that of [`figures`] and
+//! [`gallery`].
 
 mod figures;
+mod gallery;
 
 use crate::{Outcome, tidy};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-/// Where the figures lie, below the workspace's folder. Nothing else may lie there.
-const FIGURES: &str = "docs/figures/algorithm";
+/// Files by their paths below [`DOCS`].
+type Files = BTreeMap<String, Vec<u8>>;
+
+/// The documents, below the workspace's folder.
+const DOCS: &str = "docs";
+
+/// Where nothing else may lie, below the documents.
+const FOLDERS: [&str; 2] = [figures::FOLDER, gallery::FOLDER];
 
 /// Where the records lie, below the workspace's folder.
 const RECORDS: &str = "crates/hexdel/tests/snapshots";
@@ -22,39 +30,40 @@ const RECORDS: &str = "crates/hexdel/tests/snapshots";
 /// Rebuilds, or compares, everything.
 pub(crate) fn run(check: bool) -> Outcome {
     let root = tidy::root();
-    let figures = figures::all(&root)?;
-    let folder = root.join(FIGURES);
+    let mut files = figures::all(&root)?;
+    files.extend(gallery::all(&root).map_err(|fault| fault as Box<dyn std::error::Error>)?);
+    let docs = root.join(DOCS);
     if check {
-        check_figures(&folder, &figures)?;
+        check_files(&docs, &files)?;
     } else {
-        write_figures(&folder, &figures)?;
+        write_files(&docs, &files)?;
         remove_orphans(&root)?;
     }
     records(&root, check)
 }
 
-fn write_figures(folder: &Path, figures: &BTreeMap<String, Vec<u8>>) -> Outcome {
-    std::fs::create_dir_all(folder)?;
-    for name in names(folder, "svg")?.iter().filter(|name| !figures.contains_key(*name)) {
-        std::fs::remove_file(folder.join(name))?;
+fn write_files(docs: &Path, files: &Files) -> Outcome {
+    for name in surplus(docs, files)? {
+        std::fs::remove_file(docs.join(name))?;
     }
-    for (name, bytes) in figures {
-        std::fs::write(folder.join(name), bytes)?;
+    for (name, bytes) in files {
+        let path = docs.join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(docs))?;
+        std::fs::write(path, bytes)?;
     }
     Ok(())
 }
 
-fn check_figures(folder: &Path, figures: &BTreeMap<String, Vec<u8>>) -> Outcome {
+fn check_files(docs: &Path, files: &Files) -> Outcome {
     let mut faults = Vec::new();
-    for (name, bytes) in figures {
-        match std::fs::read(folder.join(name)) {
+    for (name, bytes) in files {
+        match std::fs::read(docs.join(name)) {
             Ok(found) if found == *bytes => {}
-            Ok(_) => faults.push(format!("{FIGURES}/{name} differs")),
-            Err(error) => faults.push(format!("{FIGURES}/{name}: {error}")),
+            Ok(_) => faults.push(format!("{DOCS}/{name} differs")),
+            Err(error) => faults.push(format!("{DOCS}/{name}: {error}")),
         }
     }
-    let surplus = names(folder, "svg")?.into_iter().filter(|name| !figures.contains_key(name));
-    faults.extend(surplus.map(|name| format!("{FIGURES}/{name} is made by nothing")));
+    faults.extend(surplus(docs, files)?.into_iter().map(|name| format!("{DOCS}/{name} is made by nothing")));
     if faults.is_empty() {
         Ok(())
     } else {
@@ -62,18 +71,34 @@ fn check_figures(folder: &Path, figures: &BTreeMap<String, Vec<u8>>) -> Outcome 
     }
 }
 
-/// Removes the records of fixtures that are gone: `points-a-simple.snap` is the
-/// record of `fixtures/points/a.node`.
+/// Files in the figures' folders that are not among those made.
+fn surplus(docs: &Path, files: &Files) -> std::io::Result<Vec<String>> {
+    let mut surplus = Vec::new();
+    for folder in FOLDERS {
+        let all = names(&docs.join(folder))?.into_iter().map(|name| format!("{folder}/{name}"));
+        surplus.extend(all.filter(|name| !files.contains_key(name)));
+    }
+    Ok(surplus)
+}
+
+/// Removes the records of fixtures that are gone.
 fn remove_orphans(root: &Path) -> Outcome {
-    for name in names(&root.join(RECORDS), "snap")? {
-        let parts = name.split_once('-').and_then(|(folder, rest)| Some((folder, rest.rsplit_once('-')?.0)));
-        let fixture =
-            parts.map(|(folder, stem)| root.join("fixtures").join(folder).join(format!("{stem}.node")));
-        if !fixture.is_some_and(|path| path.exists()) {
+    for name in names(&root.join(RECORDS))? {
+        if !fixture_of(&name).is_some_and(|path| root.join("fixtures").join(path).exists()) {
             std::fs::remove_file(root.join(RECORDS).join(name))?;
         }
     }
     Ok(())
+}
+
+/// Where the fixture of a record is, below the fixtures: `points-a-simple.snap` is
+/// that of `points/a.node`, `graphs-b.snap` that of `graphs/b.poly`.
+fn fixture_of(record: &str) -> Option<String> {
+    let (folder, rest) = record.split_once('-')?;
+    match rest.rsplit_once('-') {
+        Some((stem, _)) if folder != "graphs" => Some(format!("{folder}/{stem}.node")),
+        _ => Some(format!("{folder}/{}.poly", rest.split_once('.')?.0)),
+    }
 }
 
 /// Runs the tests that keep the records.
@@ -83,21 +108,18 @@ fn records(root: &Path, check: bool) -> Outcome {
     cargo.env("INSTA_UPDATE", if check { "no" } else { "always" }).env_remove("INSTA_FORCE_PASS");
     if !check {
         // Whether all records are there is a question for afterwards.
-        cargo.args(["--", "templates", "simple"]);
+        cargo.args(["--", "templates", "simple", "graphs"]);
     }
     let status = cargo.status()?;
     if status.success() { Ok(()) } else { Err("the records of the snapshot tests do not hold".into()) }
 }
 
-/// The names of the files in a folder with an extension, in order.
-fn names(folder: &Path, extension: &str) -> std::io::Result<Vec<String>> {
+/// The names of the files in a folder, in order.
+fn names(folder: &Path) -> std::io::Result<Vec<String>> {
     let mut names = Vec::new();
     if folder.exists() {
         for entry in std::fs::read_dir(folder)? {
-            let path = entry?.path();
-            if path.extension().is_some_and(|e| e == extension) {
-                names.extend(path.file_name().map(|name| name.to_string_lossy().into_owned()));
-            }
+            names.push(entry?.file_name().to_string_lossy().into_owned());
         }
     }
     names.sort();
@@ -109,19 +131,37 @@ mod tests {
     use super::*;
 
     #[test]
+    fn records_have_fixtures() {
+        for (record, fixture) in [
+            ("points-a-b-simple.snap", Some("points/a-b.node")),
+            ("graphs-b.snap", Some("graphs/b.poly")),
+            ("graphs-b-c.snap", Some("graphs/b-c.poly")),
+            ("other", None),
+        ] {
+            assert_eq!(fixture_of(record).as_deref(), fixture);
+        }
+        let root = tidy::root();
+        for record in names(&root.join(RECORDS)).unwrap() {
+            let fixture = fixture_of(&record).unwrap();
+            assert!(root.join("fixtures").join(fixture).exists(), "{record}");
+        }
+    }
+
+    #[test]
     fn figures_that_differ_are_missing_or_surplus_are_named() {
-        let folder = std::env::temp_dir().join(format!("hexdel-regen-{}", std::process::id()));
-        let figures = |names: [&str; 2]| names.map(|n| (n.to_owned(), n.as_bytes().to_vec())).into();
-        write_figures(&folder, &figures(["a.svg", "b.svg"])).unwrap();
-        check_figures(&folder, &figures(["a.svg", "b.svg"])).unwrap();
-        std::fs::write(folder.join("b.svg"), "other").unwrap();
-        std::fs::rename(folder.join("a.svg"), folder.join("c.svg")).unwrap();
-        let error = check_figures(&folder, &figures(["a.svg", "b.svg"])).unwrap_err().to_string();
-        for part in ["a.svg: ", "b.svg differs", "c.svg is made by nothing"] {
+        let docs = std::env::temp_dir().join(format!("hexdel-regen-{}", std::process::id()));
+        let at = |name: &str| format!("{}/{name}", gallery::FOLDER);
+        let files: Files = ["a.svg", "b.png"].map(|name| (at(name), name.as_bytes().to_vec())).into();
+        write_files(&docs, &files).unwrap();
+        check_files(&docs, &files).unwrap();
+        std::fs::write(docs.join(at("b.png")), "other").unwrap();
+        std::fs::rename(docs.join(at("a.svg")), docs.join(at("c.svg"))).unwrap();
+        let error = check_files(&docs, &files).unwrap_err().to_string();
+        for part in ["a.svg: ", "b.png differs", "c.svg is made by nothing"] {
             assert!(error.contains(part), "{error}");
         }
-        write_figures(&folder, &figures(["a.svg", "b.svg"])).unwrap();
-        assert_eq!(names(&folder, "svg").unwrap(), ["a.svg", "b.svg"]);
-        std::fs::remove_dir_all(&folder).unwrap();
+        write_files(&docs, &files).unwrap();
+        assert_eq!(names(&docs.join(gallery::FOLDER)).unwrap(), ["a.svg", "b.png"]);
+        std::fs::remove_dir_all(&docs).unwrap();
     }
 }

@@ -57,7 +57,7 @@ impl Offset {
     /// The vector in units of a lattice step, Cartesian.
     #[inline]
     pub fn cartesian(self) -> hexdel_geom::DVec2 {
-        const HALF_SQRT_3: f64 = hexdel_grid::double::Double::HALF_SQRT_3.hi;
+        const HALF_SQRT_3: f64 = hexdel_geom::double_double::Double::HALF_SQRT_3.hi;
         let unit = Self::UNIT as f64;
         hexdel_geom::DVec2::new(
             (2 * self.q + self.r) as f64 / (2.0 * unit),

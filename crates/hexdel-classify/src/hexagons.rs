@@ -42,6 +42,29 @@ pub fn hexagons(grid: &Grid, domain: Domain, occupants: &[Occupant]) -> Vec<Hexa
     all
 }
 
+/// For each point the index of the hexagon of `all` that holds it: a leaf if there
+/// is one, else a semi-hexagon.
+///
+/// # Complexity
+///
+/// Sorting, and a search per point and level.
+pub fn holders(grid: &Grid, all: &[Hexagon], points: &[DVec2]) -> Vec<Option<usize>> {
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_unstable_by_key(|&i| all[i].address);
+    let levels = grid.tiles().levels() as u8;
+    let at = |level: u8, point: DVec2| {
+        let address = Address::new(level, grid.lattice().locate(level, point).hex);
+        order.binary_search_by_key(&address, |&i| all[i].address).ok().map(|found| order[found])
+    };
+    let holder = |&point: &DVec2| {
+        let mut found = (0..=levels).rev().filter_map(|level| at(level, point));
+        let first = found.next()?;
+        let is_leaf = |i: &usize| all[*i].class.is_some();
+        Some(std::iter::once(first).chain(found).find(is_leaf).unwrap_or(first))
+    };
+    points.iter().map(holder).collect()
+}
+
 /// What stands at a place of the patch: its base level is full, whatever the
 /// grid has on coarser ones.
 fn kind(grid: &Grid, domain: Domain, at: Address) -> HexKind {
@@ -148,5 +171,17 @@ mod tests {
             assert!(all.iter().any(|h| h.class.is_none()));
             assert!(all.iter().all(|h| area(&h.corners) > 0.0));
         }
+    }
+
+    #[test]
+    fn every_hexagon_holds_its_middle() {
+        let mut grid = Grid::new(Lattice::new(DVec2::new(0.3, 7.0), 1.0));
+        grid.subdivide(Address::new(3, Hex::new(5, -2)));
+        let all = hexagons(&grid, Domain::around(&grid, 0).unwrap(), &[]);
+        let middle = |h: &Hexagon| h.corners.iter().sum::<DVec2>() / h.corners.len() as f64;
+        let middles: Vec<DVec2> = all.iter().map(middle).collect();
+        let holders = holders(&grid, &all, &middles);
+        assert!(holders.into_iter().eq((0..all.len()).map(Some)));
+        assert_eq!(super::holders(&grid, &all, &[DVec2::new(1e9, 0.0)]), [None]);
     }
 }

@@ -45,6 +45,18 @@ pub(crate) enum Failure {
     ReplacesInput { file: PathBuf },
     #[error("{}: two outputs of the same name", file.display())]
     Twice { file: PathBuf },
+    #[error("{of} tells no levels or classes of hexagons to colour by")]
+    #[diagnostic(help(
+        "`hexdel mesh INPUT --method templates -o x.svg --colour level` knows them, and with --method simple"
+    ))]
+    NoHexagons { of: String },
+    /// What was read is nothing that the format of the output holds.
+    #[error("{file}: holds {found}, which {format} does not")]
+    #[diagnostic(help("a mesh goes to a format of meshes, points to one of points"))]
+    Conversion { file: String, found: &'static str, format: String },
+    #[error("standard {stream} has no extension to tell its format")]
+    #[diagnostic(help("name it with --format, or --input-format"))]
+    NoFormat { stream: &'static str },
     #[error("standard output: {0}")]
     Stdout(io::Error),
     #[error("standard input: {0}")]

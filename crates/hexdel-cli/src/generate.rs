@@ -18,8 +18,8 @@ const MAX_POINTS: u64 = 100_000_000;
     The same kind, number and seed give the same file everywhere.\n\n\
     Example:\n  hexdel generate spiral 1000 --seed 7 -o spiral.node")]
 pub(crate) struct Args {
-    /// What the points are like
-    #[arg(value_name = "KIND", value_parser = kinds())]
+    /// uniform, line, clusters, grid, jittered, circle, spiral, pairs or contrast
+    #[arg(value_name = "KIND", value_parser = kinds(), hide_possible_values = true)]
     kind: Kind,
     /// How many points
     #[arg(value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_POINTS))]

@@ -1,17 +1,20 @@
-//! The program `hexdel`: meshes files of points and segments, checks meshes, makes test
-//! points.
+//! The program `hexdel`: meshes files of points and segments, checks and draws
+//! meshes, makes test points.
 //!
-//! One module per command ([`mesh`], [`check`], [`dual`], [`generate`], [`session`]), and what they
+//! One module per command ([`mesh`], [`check`], [`plot`], [`convert`], [`dual`],
+//! [`generate`], [`session`]), and what they
 //! share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
 mod check;
+mod convert;
 mod dual;
 mod exit;
 mod generate;
 mod mesh;
 mod outputs;
+mod plot;
 mod progress;
 mod session;
 mod sizing;
@@ -39,6 +42,8 @@ struct Cli {
 enum Command {
     Mesh(mesh::Args),
     Check(check::Args),
+    Plot(plot::Args),
+    Convert(convert::Args),
     Dual(dual::Args),
     Generate(generate::Args),
     Session(session::Args),
@@ -48,6 +53,8 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Plot(args) => plot::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
         Command::Session(args) => session::run(&args),

@@ -123,7 +123,10 @@ pub fn restore_constrained_delaunay(
     flippable: impl Fn([VertexId; 2]) -> bool,
 ) -> Result<FlipReport, DelaunayError> {
     let n = mesh.vertices.len();
-    if let Some(t) = mesh.triangles.par_iter().position_first(|&t| !well_formed(t, n)) {
+    let formed = |triangles: &[[VertexId; 3]]| triangles.iter().all(|&t| well_formed(t, n));
+    if !mesh.triangles.par_chunks(CHUNK).all(formed)
+        && let Some(t) = mesh.triangles.iter().position(|&t| !well_formed(t, n))
+    {
         let triangle = TriangleId::new(t);
         return Err(DelaunayError::Malformed { triangle, corners: mesh.triangles[t] });
     }

@@ -38,7 +38,7 @@ pub mod segment;
 pub mod segments;
 pub mod voronoi;
 
-mod double_double;
+pub mod double_double;
 mod incidence;
 mod scale;
 

@@ -91,7 +91,7 @@ fn decided_by_angles([a, b, c, d]: [DVec2; 4]) -> Option<bool> {
     if at_b.is_exactly_right() && at_d.is_exactly_right() {
         return Some(true);
     }
-    let sum = at_b.cross.times(at_d.dot).plus(at_b.dot.times(at_d.cross)).hi;
+    let sum = (at_b.cross * at_d.dot + at_b.dot * at_d.cross).hi;
     let magnitude = at_b.cross_terms * at_d.dot_terms + at_b.dot_terms * at_d.cross_terms;
     // 2^4 (2^-52)^2 = 2^-100
     let error = 16.0 * f64::EPSILON * f64::EPSILON * magnitude;
@@ -115,11 +115,11 @@ impl Corner {
     fn new(origin: DVec2, to: DVec2, and: DVec2) -> Self {
         let [ux, uy] = [(to.x, origin.x), (to.y, origin.y)].map(|(p, q)| Double::difference(p, q));
         let [wx, wy] = [(and.x, origin.x), (and.y, origin.y)].map(|(p, q)| Double::difference(p, q));
-        let (left, right) = (ux.times(wy), uy.times(wx));
-        let (x, y) = (ux.times(wx), uy.times(wy));
+        let (left, right) = (ux * wy, uy * wx);
+        let (x, y) = (ux * wx, uy * wy);
         Self {
-            cross: left.plus(right.negated()),
-            dot: x.plus(y),
+            cross: left - right,
+            dot: x + y,
             cross_terms: left.hi.abs() + right.hi.abs(),
             dot_terms: x.hi.abs() + y.hi.abs(),
             exact: [ux, uy, wx, wy].iter().all(|c| c.lo == 0.0),

@@ -21,8 +21,8 @@ pub fn point_on_segment(a: DVec2, b: DVec2, t: f64) -> DVec2 {
     // From the nearer end, so that the rounding of `t` matters less.
     let (from, to, t) = if t <= 0.5 { (a, b, t) } else { (b, a, 1.0 - t) };
     let at = |p: f64, q: f64| {
-        let offset = Double::difference(q, p).times(Double { hi: t, lo: 0.0 });
-        offset.plus(Double { hi: p, lo: 0.0 }).hi
+        let offset = Double::difference(q, p) * Double::from(t);
+        (offset + Double::from(p)).hi
     };
     DVec2::new(at(from.x, to.x), at(from.y, to.y))
 }

@@ -153,8 +153,9 @@ impl Grid {
             HexKind::Leaf => Neighbour::Same(there),
             HexKind::Subdivided => Neighbour::Finer(Address::new(at.level + 1, there.hex.scaled())),
             HexKind::Semi { of } => Neighbour::Coarser(Address::new(at.level - 1, of)),
-            // A full hexagon has a subdivided parent, and every neighbour of
-            // it lies on one of that parent's sides.
+            // A full hexagon has a subdivided parent, and every neighbour of it
+            // lies on one of that parent's sides: in balance or not, half of
+            // it at least was made.
             HexKind::Absent => unreachable!("{there:?} beside the full hexagon {at:?} is absent"),
         })
     }

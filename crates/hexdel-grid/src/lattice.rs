@@ -1,8 +1,8 @@
 //! From addresses to coordinates and back.
 
 use crate::axial::{Address, Hex};
-use crate::double::Double;
 use glam::DVec2;
+use hexdel_geom::double_double::Double;
 
 /// Where the grid lies in the plane: its origin and the spacing of level 0.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,18 +12,18 @@
 //! | module | what |
 //! |---|---|
 //! | [`axial`] | integer addresses of hexagons and the six directions |
-//! | [`double`] | double-double sums that keep deep levels exact |
 //! | [`lattice`] | from addresses to coordinates and back |
 //! | [`window`] | 16 x 16 hexagons as one 256-bit word, and its set algebra |
 //! | [`tiles`] | the sparse store: 8 x 8 hexagons a tile, linked in a quadtree |
 //! | [`grid`] | existence, fins, neighbours, subdivision with balance, merging |
 
 pub mod axial;
-pub mod double;
 pub mod grid;
 pub mod lattice;
 pub mod tiles;
 pub mod window;
+
+pub use hexdel_geom::double_double as double;
 
 pub use axial::{Address, Direction, Hex};
 pub use grid::{Grid, HexKind, MergeError, Neighbour};

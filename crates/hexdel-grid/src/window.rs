@@ -74,12 +74,12 @@ impl Window {
     #[must_use]
     pub fn at(self, d: Direction) -> Self {
         match d.index() {
-            0 => self.from_east(),
-            1 => self.from_above(),
-            2 => self.from_above().from_west(),
-            3 => self.from_west(),
-            4 => self.from_below(),
-            _ => self.from_below().from_east(),
+            0 => self.seen_east(),
+            1 => self.seen_above(),
+            2 => self.seen_above().seen_west(),
+            3 => self.seen_west(),
+            4 => self.seen_below(),
+            _ => self.seen_below().seen_east(),
         }
     }
 
@@ -87,8 +87,8 @@ impl Window {
     #[inline]
     #[must_use]
     pub fn each_way(self) -> [Self; 6] {
-        let (above, below) = (self.from_above(), self.from_below());
-        [self.from_east(), above, above.from_west(), self.from_west(), below, below.from_east()]
+        let (above, below) = (self.seen_above(), self.seen_below());
+        [self.seen_east(), above, above.seen_west(), self.seen_west(), below, below.seen_east()]
     }
 
     /// The neighbours in direction `d` of the hexagons in this set.
@@ -103,8 +103,8 @@ impl Window {
     #[inline]
     #[must_use]
     pub fn dilated(self) -> Self {
-        let (east, west) = (self.from_east(), self.from_west());
-        self | east | west | (self | west).from_above() | (self | east).from_below()
+        let (east, west) = (self.seen_east(), self.seen_west());
+        self | east | west | (self | west).seen_above() | (self | east).seen_below()
     }
 
     /// The hexagons with another one of this set at most `n` steps away.
@@ -119,15 +119,15 @@ impl Window {
         // the lines shifted on from row to row, outermost first.
         let (mut right, mut left) = ([self; Self::MARGIN as usize], [self; Self::MARGIN as usize]);
         for k in 1..=n {
-            right[k] = right[k - 1] | right[k - 1].from_east();
-            left[k] = left[k - 1] | left[k - 1].from_west();
+            right[k] = right[k - 1] | right[k - 1].seen_east();
+            left[k] = left[k - 1] | left[k - 1].seen_west();
         }
         let (mut above, mut below) = (Self::EMPTY, Self::EMPTY);
         for r in (1..=n).rev() {
-            above = (above | right[n - r] | left[n]).from_above();
-            below = (below | left[n - r] | right[n]).from_below();
+            above = (above | right[n - r] | left[n]).seen_above();
+            below = (below | left[n - r] | right[n]).seen_below();
         }
-        above | below | right[n - 1].from_east() | left[n - 1].from_west()
+        above | below | right[n - 1].seen_east() | left[n - 1].seen_west()
     }
 
     /// Whether no hexagon is in the set.
@@ -228,28 +228,28 @@ impl Window {
 
     /// The hexagons whose eastern neighbour is in this set.
     #[inline]
-    fn from_east(self) -> Self {
+    fn seen_east(self) -> Self {
         let [a, b, c, d] = self.0;
         Self([a >> 1, b >> 1, c >> 1, d >> 1])
     }
 
     /// The hexagons whose western neighbour is in this set.
     #[inline]
-    fn from_west(self) -> Self {
+    fn seen_west(self) -> Self {
         let [a, b, c, d] = self.0;
         Self([a << 1, b << 1, c << 1, d << 1])
     }
 
     /// Of each column, what the row above holds.
     #[inline]
-    fn from_above(self) -> Self {
+    fn seen_above(self) -> Self {
         let [a, b, c, d] = self.0;
         Self([b, c, d, a >> 16])
     }
 
     /// Of each column, what the row below holds.
     #[inline]
-    fn from_below(self) -> Self {
+    fn seen_below(self) -> Self {
         let [a, b, c, d] = self.0;
         Self([d << 16, a, b, c])
     }

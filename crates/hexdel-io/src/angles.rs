@@ -5,20 +5,23 @@
 
 use hexdel_geom::DVec2;
 
-/// The smallest and the largest angle of a triangle, degrees; zeros for
-/// coincident corners.
-pub(crate) fn angle_range_deg(corners: [DVec2; 3]) -> [f64; 2] {
+/// The angles of a triangle at its corners, degrees; zeros for coincident corners.
+pub(crate) fn angles_deg(corners: [DVec2; 3]) -> [f64; 3] {
     // Halved before the subtraction and scaled after it, no difference overflows
     // and no product under- or overflows that matters.
     let [a, b, c] = corners.map(|p| p * 0.5);
     let sides = [b - a, c - b, a - c];
     let scale = sides.iter().map(|s| s.abs().max_element()).fold(0.0, f64::max);
     if scale == 0.0 {
-        return [0.0, 0.0];
+        return [0.0; 3];
     }
     let [ab, bc, ca] = sides.map(|s| s / scale);
-    let angles = [between(ab, -ca), between(bc, -ab), between(ca, -bc)];
-    let [x, y, z] = angles;
+    [between(ab, -ca), between(bc, -ab), between(ca, -bc)]
+}
+
+/// The smallest and the largest of them.
+pub(crate) fn angle_range_deg(corners: [DVec2; 3]) -> [f64; 2] {
+    let [x, y, z] = angles_deg(corners);
     [x.min(y).min(z), x.max(y).max(z)]
 }
 

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use hexdel_geom::PslgLayoutError;
+use hexdel_geom::{DVec2, PslgLayoutError};
 use thiserror::Error;
 
 /// Why a file was not read.
@@ -415,6 +415,34 @@ pub enum WriteError {
         file: String,
         /// Which do not.
         source: PslgLayoutError,
+    },
+    /// The bounds of a picture are no bounds of angles.
+    #[error("{file}: angles from {low} to {high} degrees are no bounds: expected 0 to 60 and 60 to 180")]
+    Bounds {
+        /// The file.
+        file: String,
+        /// The smaller bound, degrees.
+        low: f64,
+        /// The larger bound, degrees.
+        high: f64,
+    },
+    /// The box that a picture is to show is empty, not finite, or beside the mesh.
+    #[error("{file}: the box from ({}, {}) to ({}, {}) {fault}", min.x, min.y, max.x, max.y)]
+    Zoom {
+        /// The file.
+        file: String,
+        /// The smaller coordinates.
+        min: DVec2,
+        /// The larger coordinates.
+        max: DVec2,
+        /// What is wrong with it.
+        fault: &'static str,
+    },
+    /// A picture is to be coloured by regions, of which the mesh has none.
+    #[error("{file}: the mesh has no regions to colour triangles by")]
+    NoRegions {
+        /// The file.
+        file: String,
     },
     /// An array has neither one entry per item nor none.
     #[error("{file}: {found} {array} instead of {expected}")]

@@ -62,6 +62,8 @@ const MESH_NAMES: Names<MeshFormat> = &[
     ("json", MeshFormat::Json),
     ("ron", MeshFormat::Ron),
     ("svg", MeshFormat::Svg),
+    #[cfg(feature = "png")]
+    ("png", MeshFormat::Png),
 ];
 
 impl PointFormat {
@@ -128,12 +130,21 @@ pub enum MeshFormat {
     Ron,
     /// A picture, `.svg`. Written only.
     Svg,
+    /// A picture, `.png`. Written only, with the feature `png`.
+    #[cfg(feature = "png")]
+    Png,
 }
 
 impl MeshFormat {
     /// The extensions that meshes are written to, for messages.
-    pub const EXTENSIONS: &str =
-        ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg";
+    pub const EXTENSIONS: &str = if cfg!(feature = "png") {
+        ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg, .png"
+    } else {
+        ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg"
+    };
+
+    /// The extensions of pictures, for messages.
+    pub const PICTURES: &str = if cfg!(feature = "png") { ".svg, .png" } else { ".svg" };
 
     /// The extensions that meshes are read from, for messages.
     pub const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .json, .ron";
@@ -161,7 +172,17 @@ impl MeshFormat {
 
     /// Whether the format can be read.
     pub fn is_read(self) -> bool {
-        !matches!(self, Self::Edge | Self::Neigh | Self::Poly | Self::Svg)
+        !matches!(self, Self::Edge | Self::Neigh | Self::Poly) && !self.is_picture()
+    }
+
+    /// Whether it is a picture.
+    pub fn is_picture(self) -> bool {
+        match self {
+            Self::Svg => true,
+            #[cfg(feature = "png")]
+            Self::Png => true,
+            _ => false,
+        }
     }
 }
 
@@ -200,7 +221,7 @@ fn name_of<F: Copy + PartialEq>(names: Names<F>, format: F) -> &'static str {
 }
 
 fn extension(path: &Path) -> Option<String> {
-    path.extension()?.to_str().map(str::to_owned)
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::io::BufRead;
 use serde::de::DeserializeOwned;
 
 use crate::error::ReadError;
+use crate::lines::clip_message;
 
 /// A text to be parsed and what errors call it.
 pub(crate) struct Source<'a> {
@@ -37,6 +38,6 @@ pub(crate) fn json_error(error: &serde_json::Error, file: &str) -> ReadError {
         file: file.to_owned(),
         line: error.line() as u64,
         column: error.column() as u64,
-        message: message.to_owned(),
+        message: clip_message(message.to_owned()),
     }
 }

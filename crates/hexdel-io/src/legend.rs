@@ -1,21 +1,36 @@
-//! The legend of a picture: angle scale, counts, overlay classes.
+//! The legend of a picture: what colours mean, counts, and the histogram.
 
-use crate::picture::{Rgb, scale_colour};
-use crate::svg::{BELOW_COLOUR, Colouring, MARGIN, level_range};
-use crate::text::TextWriter;
+use crate::canvas::{Anchor, Canvas, Label, Style, hundredths, place, rectangle};
+use crate::colour::{BEYOND, BLACK, Rgb, WHITE};
+use crate::frame::Frame;
+use crate::histogram::Histogram;
+use crate::picture::{ColourBy, Overlay, OverlayClass};
+use crate::survey::Survey;
 use crate::view::MeshView;
+use std::collections::BTreeSet;
+use std::io;
 
-/// Height of a line of text, pixels.
+// Lengths are in units, pixels of a picture of ordinary size.
+
+/// Height of a line of text.
 const LINE: f64 = 18.0;
 
-/// Height of the angle scale, pixels.
+/// Height of the angle scale.
 const SCALE_HEIGHT: f64 = 180.0;
 
 /// Steps between the labels of the angle scale.
 const TICKS: usize = 6;
 
-/// A generous width of a character of the 13 pixel font, pixels.
+const FONT: f64 = 13.0;
+
+/// A generous width of a character.
 const CHARACTER: f64 = 7.5;
+
+/// Space above a heading that is not the first, and between other things.
+const GAP: f64 = 10.0;
+
+/// Classes beyond these are summed up.
+const MOST_CLASSES: usize = 16;
 
 /// What stands at the start of a line.
 enum Sign {
@@ -25,175 +40,280 @@ enum Sign {
 }
 
 enum Item {
+    Heading(String),
     Line(Sign, String),
     /// Labels of the angle scale from top to bottom.
     Scale(Vec<String>),
+    Histogram,
+    Gap,
 }
 
-/// A legend with known size.
+/// A legend.
 pub(crate) struct Legend {
     items: Vec<Item>,
-    pub(crate) width: f64,
-    pub(crate) height: f64,
 }
 
-/// Decides what the legend of a picture says.
-pub(crate) fn layout(view: &MeshView<'_>, colouring: &Colouring) -> Legend {
-    let mut items = Vec::new();
-    if !view.mesh.triangles.is_empty() {
-        angle_items(&mut items, view, colouring);
-    }
-    let inputs = view.input_indices.unwrap_or_default().iter().flatten().count();
-    if inputs > 0 {
-        let dot = if view.picture.input_points { Sign::Dot } else { Sign::None };
-        items.push(Item::Line(dot, format!("{inputs} input points")));
-    }
-    overlay_items(&mut items, view);
-    Legend {
-        width: items.iter().map(Item::width).fold(0.0, f64::max),
-        height: items.iter().map(Item::height).sum(),
-        items,
-    }
-}
-
-fn angle_items(items: &mut Vec<Item>, view: &MeshView<'_>, colouring: &Colouring) {
-    let [low, high] = view.picture.angle_range_deg;
-    if view.picture.fill_triangles {
-        let labels = (0..=TICKS).map(|i| {
-            let label = high + (low - high) * i as f64 / TICKS as f64;
-            format!("{}\u{b0}", short(label))
-        });
-        items.push(Item::Line(Sign::None, "smallest angle".to_owned()));
-        items.push(Item::Scale(labels.collect()));
-        if colouring.below > 0 {
-            let label = format!("below {}\u{b0}: {}", short(low), colouring.below);
-            items.push(Item::Line(Sign::Square(BELOW_COLOUR), label));
+impl Legend {
+    /// Decides what the legend of a picture says; `dots` is the number of input
+    /// points in view, `classes` are those of the overlay in view.
+    pub(crate) fn new(
+        view: &MeshView<'_>,
+        frame: &Frame,
+        survey: &Survey,
+        dots: usize,
+        classes: &BTreeSet<(u32, usize)>,
+    ) -> Self {
+        let mut items = Vec::new();
+        if view.picture.fill_triangles && !survey.looks.is_empty() {
+            colour_items(&mut items, view, survey);
         }
+        if !view.mesh.triangles.is_empty() {
+            count_items(&mut items, view, frame, survey);
+        }
+        if dots > 0 {
+            let dot = if view.picture.input_points { Sign::Dot } else { Sign::None };
+            items.push(Item::Line(dot, format!("{} input points", grouped(dots))));
+        }
+        if let Some(overlay) = view.picture.overlay {
+            let filled = !view.picture.fill_triangles;
+            overlay_items(&mut items, overlay, classes, filled);
+        }
+        if view.picture.histogram && !survey.looks.is_empty() {
+            items.push(Item::Heading("angles, square root scale".to_owned()));
+            items.push(Item::Histogram);
+        }
+        Self { items }
     }
-    let [min, max] = colouring.angles_deg;
-    for line in [
-        format!("{} triangles", view.mesh.triangles.len()),
-        format!("angles {min:.2}\u{b0} to {max:.2}\u{b0}"),
-    ] {
-        items.push(Item::Line(Sign::None, line));
+
+    /// Width and height in units.
+    pub(crate) fn size(&self) -> [f64; 2] {
+        let width = self.items.iter().map(Item::width).fold(0.0, f64::max);
+        [width, (0..self.items.len()).map(|i| self.height(i)).sum()]
+    }
+
+    fn height(&self, item: usize) -> f64 {
+        let above = if item > 0 && matches!(self.items[item], Item::Heading(_)) { GAP } else { 0.0 };
+        above + self.items[item].height()
+    }
+
+    /// Draws the legend with its upper left corner at `at` pixels, `unit` pixels to
+    /// a unit.
+    pub(crate) fn draw(
+        &self,
+        canvas: &mut dyn Canvas,
+        view: &MeshView<'_>,
+        histogram: &Histogram,
+        at: [f64; 2],
+        unit: f64,
+    ) -> io::Result<()> {
+        let mut y = 0.0;
+        for (i, item) in self.items.iter().enumerate() {
+            let bottom = y + self.height(i);
+            let mut pen = Pen { canvas, at, unit, y: bottom - item.height() };
+            match item {
+                Item::Heading(text) => pen.text([0.0, 0.7 * LINE], text, true)?,
+                Item::Line(sign, text) => {
+                    let indent = pen.sign(sign)?;
+                    pen.text([indent, 0.7 * LINE], text, false)?;
+                }
+                Item::Scale(labels) => pen.scale(labels)?,
+                Item::Gap => {}
+                Item::Histogram => {
+                    let corner = pen.place([0.0, 0.0]);
+                    histogram.draw(pen.canvas, view.picture.bounds_deg, corner, unit)?;
+                }
+            }
+            y = bottom;
+        }
+        Ok(())
     }
 }
 
-fn overlay_items(items: &mut Vec<Item>, view: &MeshView<'_>) {
-    let Some(overlay) = view.picture.overlay else {
+fn colour_items(items: &mut Vec<Item>, view: &MeshView<'_>, survey: &Survey) {
+    let [low, high] = view.picture.bounds_deg;
+    match view.picture.colour_by {
+        ColourBy::SmallestAngle => scale_items(items, "smallest angle", low, "below", survey.beyond()),
+        ColourBy::LargestAngle => scale_items(items, "largest angle", high, "above", survey.beyond()),
+        ColourBy::Region => {
+            let label = |r: &f64| OverlayClass { label: r.to_string(), colour: BLACK };
+            class_items(items, "region", &survey.regions.iter().map(label).collect::<Vec<_>>(), survey);
+        }
+        ColourBy::Groups(groups) => class_items(items, &groups.title, &groups.classes, survey),
+    }
+}
+
+fn scale_items(items: &mut Vec<Item>, title: &str, bound: f64, word: &str, beyond: usize) {
+    let label = |i: usize| 60.0 + (bound - 60.0) * i as f64 / TICKS as f64;
+    items.push(Item::Heading(title.to_owned()));
+    items.push(Item::Scale((0..=TICKS).map(|i| format!("{}\u{b0}", short(label(i)))).collect()));
+    if beyond > 0 {
+        let label = format!("{word} {}\u{b0}: {}", short(bound), grouped(beyond));
+        items.push(Item::Line(Sign::Square(BEYOND), label));
+    }
+}
+
+/// The classes that occur, each with its number of triangles.
+fn class_items(items: &mut Vec<Item>, title: &str, classes: &[OverlayClass], survey: &Survey) {
+    items.push(Item::Heading(title.to_owned()));
+    let occurring = || (0..classes.len()).filter(|&i| survey.counts[i] > 0);
+    for i in occurring().take(MOST_CLASSES) {
+        let label = format!("{}: {}", classes[i].label, grouped(survey.counts[i]));
+        items.push(Item::Line(Sign::Square(survey.colours[i]), label));
+    }
+    more(items, occurring().count());
+}
+
+/// A line for the classes that there is no room for.
+fn more(items: &mut Vec<Item>, classes: usize) {
+    if classes > MOST_CLASSES {
+        items.push(Item::Line(Sign::None, format!("and {} more", grouped(classes - MOST_CLASSES))));
+    }
+}
+
+fn count_items(items: &mut Vec<Item>, view: &MeshView<'_>, frame: &Frame, survey: &Survey) {
+    let (shown, all) = (grouped(survey.looks.len()), grouped(view.mesh.triangles.len()));
+    let triangles =
+        if frame.zoomed { format!("{shown} of {all} triangles") } else { format!("{all} triangles") };
+    if !items.is_empty() {
+        items.push(Item::Gap);
+    }
+    items.push(Item::Line(Sign::None, triangles));
+    let [min, max] = survey.angles_deg;
+    if min <= max {
+        items.push(Item::Line(Sign::None, format!("angles {min:.2}\u{b0} to {max:.2}\u{b0}")));
+    }
+}
+
+fn overlay_items(items: &mut Vec<Item>, overlay: &Overlay, classes: &BTreeSet<(u32, usize)>, filled: bool) {
+    if !filled {
         return;
-    };
-    items.push(Item::Line(Sign::None, overlay.title.clone()));
-    for class in &overlay.classes {
+    }
+    let used: BTreeSet<usize> = classes.iter().map(|(_, class)| *class).collect();
+    items.push(Item::Heading(overlay.title.clone()));
+    for class in used.iter().take(MOST_CLASSES).map(|&class| &overlay.classes[class]) {
         items.push(Item::Line(Sign::Square(class.colour), class.label.clone()));
     }
-    if let Some([low, high]) = level_range(overlay)
+    more(items, used.len());
+    let levels = || classes.iter().map(|(level, _)| level);
+    if let (Some(low), Some(high)) = (levels().min(), levels().max())
         && low < high
     {
-        let line = format!("level {low} light to {high} dark");
-        items.push(Item::Line(Sign::None, line));
+        items.push(Item::Line(Sign::None, format!("level {low} light to {high} dark")));
     }
 }
 
 /// At most one decimal.
-fn short(angle_deg: f64) -> String {
+pub(crate) fn short(angle_deg: f64) -> String {
     let text = format!("{angle_deg:.1}");
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
+/// With commas between thousands.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 impl Item {
     fn width(&self) -> f64 {
+        let text = |label: &str| CHARACTER * label.chars().count() as f64;
         match self {
-            Self::Line(_, label) => LINE + CHARACTER * label.chars().count() as f64,
+            Self::Heading(label) => LINE + 1.1 * text(label),
+            Self::Line(_, label) => LINE + text(label),
             Self::Scale(_) => 80.0,
+            Self::Histogram => Histogram::size()[0],
+            Self::Gap => 0.0,
         }
     }
 
     fn height(&self) -> f64 {
         match self {
-            Self::Line(..) => LINE,
+            Self::Heading(_) | Self::Line(..) => LINE,
             Self::Scale(_) => SCALE_HEIGHT + LINE,
+            Self::Histogram => Histogram::size()[1],
+            Self::Gap => GAP,
         }
     }
 }
 
-impl Legend {
-    /// Writes the legend with its left side at `x` pixels.
-    pub(crate) fn write(&self, text: &mut TextWriter<'_>, x: f64) {
-        text.text("<g id=\"legend\" font-family=\"sans-serif\" font-size=\"13\">\n");
-        let mut y = MARGIN;
-        for item in &self.items {
-            match item {
-                Item::Line(sign, label) => {
-                    let indent = write_sign(text, sign, x, y);
-                    label_at(text, x + indent, y + 0.7 * LINE, label);
-                }
-                Item::Scale(labels) => write_scale(text, labels, x, y + 0.3 * LINE),
+/// Draws an item of the legend.
+struct Pen<'c> {
+    canvas: &'c mut dyn Canvas,
+    /// The upper left corner of the legend, pixels.
+    at: [f64; 2],
+    unit: f64,
+    /// Where the item begins, units below the corner.
+    y: f64,
+}
+
+impl Pen<'_> {
+    /// Pixels of a place given in units from the item's upper left corner.
+    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.at[0] + x * self.unit, self.at[1] + (self.y + y) * self.unit]
+    }
+
+    fn text(&mut self, at: [f64; 2], text: &str, bold: bool) -> io::Result<()> {
+        let (at, size) = (place(self.place(at)), FONT * self.unit);
+        self.canvas.label(Label { text, at, anchor: Anchor::Start, size, bold })
+    }
+
+    fn rectangle(&mut self, style: Style, at: [f64; 2], size: [f64; 2]) -> io::Result<()> {
+        let at = self.place(at);
+        rectangle(self.canvas, style, at, size.map(|s| s * self.unit))
+    }
+
+    /// Returns how far the text is moved to the right.
+    fn sign(&mut self, sign: &Sign) -> io::Result<f64> {
+        match sign {
+            Sign::None => return Ok(0.0),
+            Sign::Square(colour) => {
+                let side = 0.7 * LINE;
+                // The outline is for colours that are nearly white.
+                let line = Some((Rgb([0x99; 3]), hundredths(0.5 * self.unit)));
+                let style = Style { stroke: line, ..Style::filled(*colour) };
+                self.rectangle(style, [0.0, 0.1 * LINE], [side, side])?;
             }
-            y += item.height();
+            Sign::Dot => {
+                let centre = place(self.place([0.35 * LINE, 0.45 * LINE]));
+                let style = Style { stroke: Some((BLACK, hundredths(self.unit))), ..Style::filled(WHITE) };
+                self.canvas.discs(style, 3.0 * self.unit, &[centre])?;
+            }
         }
-        text.text("</g>\n");
+        Ok(LINE)
     }
-}
 
-/// Returns how far the label is moved to the right.
-fn write_sign(text: &mut TextWriter<'_>, sign: &Sign, x: f64, y: f64) -> f64 {
-    match sign {
-        Sign::None => return 0.0,
-        Sign::Square(colour) => {
-            let side = 0.7 * LINE;
-            rectangle(text, [x, y + 0.1 * LINE], [side, side], &colour.hex());
+    fn scale(&mut self, labels: &[String]) -> io::Result<()> {
+        const STEPS: usize = 60;
+        const WIDTH: f64 = 20.0;
+        let step = SCALE_HEIGHT / STEPS as f64;
+        for i in 0..STEPS {
+            let colour = Rgb::of_scale(1.0 - (i as f64 + 0.5) / STEPS as f64);
+            // Half a pixel more than a step covers the seam to the next.
+            let more = if i + 1 < STEPS { 0.5 } else { 0.0 };
+            self.rectangle(Style::filled(colour), [0.0, 0.3 * LINE + i as f64 * step], [WIDTH, step + more])?;
         }
-        Sign::Dot => {
-            text.text("<circle cx=\"").pixels(x + 0.35 * LINE);
-            text.text("\" cy=\"").pixels(y + 0.45 * LINE);
-            text.text("\" r=\"3\" fill=\"#fff\" stroke=\"#000\"/>\n");
+        for (i, label) in labels.iter().enumerate() {
+            let y = 0.3 * LINE + SCALE_HEIGHT * i as f64 / TICKS as f64;
+            self.text([WIDTH + 6.0, y + 0.25 * LINE], label, false)?;
         }
-    }
-    LINE
-}
-
-fn write_scale(text: &mut TextWriter<'_>, labels: &[String], x: f64, y: f64) {
-    const STEPS: usize = 60;
-    const WIDTH: f64 = 20.0;
-    let step = SCALE_HEIGHT / STEPS as f64;
-    for i in 0..STEPS {
-        let colour = scale_colour(1.0 - (i as f64 + 0.5) / STEPS as f64).hex();
-        // Half a pixel more than a step covers the seam to the next.
-        let place = [x, y + i as f64 * step];
-        rectangle(text, place, [WIDTH, step + 0.5], &colour);
-    }
-    for (i, label) in labels.iter().enumerate() {
-        let at = y + SCALE_HEIGHT * i as f64 / TICKS as f64;
-        label_at(text, x + WIDTH + 6.0, at + 0.25 * LINE, label);
+        Ok(())
     }
 }
 
-fn rectangle(text: &mut TextWriter<'_>, place: [f64; 2], size: [f64; 2], colour: &str) {
-    text.text("<rect x=\"").pixels(place[0]);
-    text.text("\" y=\"").pixels(place[1]);
-    text.text("\" width=\"").pixels(size[0]);
-    text.text("\" height=\"").pixels(size[1]);
-    text.text("\" fill=\"").text(colour).text("\"/>\n");
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-fn label_at(text: &mut TextWriter<'_>, x: f64, y: f64, label: &str) {
-    text.text("<text x=\"").pixels(x).text("\" y=\"").pixels(y);
-    text.text("\">").text(&escape(label)).text("</text>\n");
-}
-
-/// A label as text of XML, which has no control characters.
-fn escape(label: &str) -> String {
-    let mut escaped = String::with_capacity(label.len());
-    for c in label.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
-            c if c.is_control() => escaped.push(' '),
-            c => escaped.push(c),
-        }
+    #[test]
+    fn numbers_are_short_and_grouped() {
+        assert_eq!([0, 999, 1000, 1_234_567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
+        assert_eq!([43.897, 60.0, 89.96].map(short), ["43.9", "60", "90"]);
     }
-    escaped
 }

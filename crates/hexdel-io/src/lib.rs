@@ -24,7 +24,7 @@
 //! | `.off` | Geomview | yes | yes |
 //! | `.mesh` | Medit in text | yes | yes |
 //! | `.json` `.ron` | a [`TriMesh`](hexdel_geom::TriMesh) and its data | yes | yes |
-//! | `.svg` | pictures | | yes |
+//! | `.svg` `.png` | pictures, [`Picture`] | | yes |
 //! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh, by [`write_dual`] | | yes |
 //!
 //! Points go through [`read_points`] and [`write_points`], meshes through
@@ -43,13 +43,19 @@
 mod angles;
 mod asc;
 mod atomic;
+mod canvas;
+mod colour;
 mod data;
 mod dual;
 mod error;
 mod format;
+mod frame;
 mod geojson;
+#[cfg(feature = "png")]
+mod glyphs;
 mod graph_json;
 mod graph_ron;
+mod histogram;
 mod interior;
 mod json;
 mod legend;
@@ -62,9 +68,13 @@ mod msh_out;
 mod obj;
 mod off;
 mod picture;
+#[cfg(feature = "png")]
+mod png;
 mod read;
+mod scene;
 mod shapes;
 mod sizes;
+mod survey;
 mod svg;
 mod table;
 mod tags;
@@ -81,12 +91,15 @@ mod wkt;
 mod write;
 
 pub use asc::{Raster, parse_raster, read_raster};
+pub use colour::Rgb;
 pub use data::MeshData;
 pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
-pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
-pub use read::{read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from};
+pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
+pub use read::{
+    holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from,
+};
 pub use sizes::{parse_sizes, read_sizes};
 pub use view::{MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_to, write_points, write_points_to};

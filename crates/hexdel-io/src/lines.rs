@@ -17,6 +17,9 @@ pub(crate) const MAX_LINE: usize = 1 << 20;
 /// The longest quotation from a file in an error, in characters.
 const MAX_QUOTE: usize = 40;
 
+/// The longest message of a parser in an error, in characters.
+const MAX_MESSAGE: usize = 240;
+
 /// Where a `#` begins a comment.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Comments {
@@ -237,4 +240,14 @@ pub(crate) fn clip(text: &str) -> String {
         Some((end, _)) => format!("{}..", &text[..end]),
         None => text.to_owned(),
     }
+}
+
+/// A parser's message, which may quote the file at any length: cut likewise, on one
+/// line.
+pub(crate) fn clip_message(mut message: String) -> String {
+    if let Some((end, _)) = message.char_indices().nth(MAX_MESSAGE) {
+        message.truncate(end);
+        message.push_str("..");
+    }
+    message.replace(char::is_control, " ")
 }

@@ -30,6 +30,7 @@ use serde::de::DeserializeOwned;
 use crate::data::{MeshData, MeshDocument};
 use crate::error::ReadError;
 use crate::json::Source;
+use crate::lines::clip_message;
 use crate::view::{MarkedEdge, MeshView};
 
 #[derive(Serialize)]
@@ -93,6 +94,6 @@ fn malformed(error: &SpannedError, file: &str) -> ReadError {
         file: file.to_owned(),
         line: error.span.start.line as u64,
         column: error.span.start.col as u64,
-        message: error.code.to_string(),
+        message: clip_message(error.code.to_string()),
     }
 }

@@ -6,8 +6,7 @@
 //! other sections are left. Nodes and elements may be numbered in any way; vertices
 //! are in the order of the file, edges and triangles in the order of their numbers.
 //!
-//! The crate `mshio` reads version 4.1 only, needs the whole file in memory, and trusts
-//! the counts in headers.
+//! The crate `mshio` reads version 4.1 only, from a slice of the whole file.
 
 use std::collections::HashMap;
 use std::io::BufRead;
@@ -150,12 +149,14 @@ impl<R: BufRead> Msh<R> {
         let count = self.tokens.count("the number of nodes", "nodes", MAX_ITEMS)?;
         self.tokens.parse::<u64>("the smallest number of a node")?;
         self.tokens.parse::<u64>("the largest number of a node")?;
+        // A file may have several sections.
+        let before = self.mesh.vertices.len();
         for block in 0..blocks {
             self.tokens.item("blocks of nodes", block, blocks)?;
             let dimension: usize = self.tokens.parse("the dimension of an entity")?;
             self.tokens.parse::<i64>("the number of an entity")?;
             let parametric: u32 = self.tokens.parse("0 or 1 for parametric nodes")?;
-            let rest = count - self.mesh.vertices.len() as u64;
+            let rest = count - (self.mesh.vertices.len() - before) as u64;
             let here = self.tokens.count("the number of nodes of the block", "announced nodes", rest)?;
             for index in 0..here {
                 self.tokens.item("nodes", index, here)?;
@@ -169,7 +170,7 @@ impl<R: BufRead> Msh<R> {
                 }
             }
         }
-        self.complete("nodes", count, self.mesh.vertices.len())
+        self.complete("nodes", count, self.mesh.vertices.len() - before)
     }
 
     /// Blocks together must have what the section announces.

@@ -1,6 +1,8 @@
-//! How a picture of a mesh looks, and what is drawn over it.
+//! What a picture of a mesh shows: options, colourings, and what is drawn over it.
 
+use crate::colour::Rgb;
 use crate::error::WriteError;
+use crate::view::MeshView;
 use hexdel_geom::DVec2;
 
 /// Options of a picture.
@@ -8,38 +10,80 @@ use hexdel_geom::DVec2;
 /// # Examples
 ///
 /// ```
-/// let mut picture = hexdel_io::Picture::default();
+/// use hexdel_io::{ColourBy, Picture};
+///
+/// let mut picture = Picture::default();
 /// picture.size_px = 400.0;
-/// picture.angle_range_deg = [43.9, 60.0];
+/// picture.colour_by = ColourBy::LargestAngle;
+/// picture.bounds_deg = [43.9, 90.0];
+/// picture.histogram = true;
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "each switches one layer")]
 #[non_exhaustive]
 pub struct Picture<'a> {
     /// Length of the longer side of the drawing without legend, pixels; kept
-    /// between 16 and 100,000.
+    /// between 16 and 100,000, in PNG 16,384.
     pub size_px: f64,
-    /// The smallest angles that the two ends of the colour scale stand for,
-    /// degrees. Triangles below have a colour of their own.
-    pub angle_range_deg: [f64; 2],
-    /// Whether triangles are filled with the colour of their smallest angle.
+    /// The angles that are held to be good, degrees. The colour scale goes from
+    /// these to 60 degrees, triangles beyond have a colour of their own, and the
+    /// histogram marks them.
+    pub bounds_deg: [f64; 2],
+    /// What the colours of triangles say.
+    pub colour_by: ColourBy<'a>,
+    /// Whether triangles are filled with their colour.
     pub fill_triangles: bool,
-    /// Whether edges are drawn.
+    /// Whether edges are drawn, those with markers heavier than others.
     pub edges: bool,
     /// Whether input points are drawn, as far as the mesh view names them.
     pub input_points: bool,
-    /// Polygons over the filled triangles, translucent, or under the edges if
-    /// triangles are not filled.
+    /// Whether the legend has a histogram of the angles.
+    pub histogram: bool,
+    /// Two opposite corners of the box to show, in the coordinates of the mesh:
+    /// the smaller coordinates, the larger. All of the mesh if there is none.
+    pub zoom: Option<[DVec2; 2]>,
+    /// Polygons: their outlines over the filled triangles or, if triangles are not
+    /// filled, in their own colours under the edges.
     pub overlay: Option<&'a Overlay>,
+}
+
+/// What the colours of triangles say.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum ColourBy<'a> {
+    /// The smallest angle, from the smaller bound to 60 degrees.
+    #[default]
+    SmallestAngle,
+    /// The largest angle, from 60 degrees to the larger bound.
+    LargestAngle,
+    /// The region, of a mesh view that [has them](MeshView::with_regions).
+    Region,
+    /// Groups of any meaning.
+    Groups(&'a Groups),
+}
+
+/// Triangles in groups, each with its colour.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Groups {
+    /// What stands above the legend.
+    pub title: String,
+    /// What triangles are told apart by.
+    pub classes: Vec<OverlayClass>,
+    /// For each triangle the index of its class in [`Groups::classes`].
+    pub of_triangle: Vec<u32>,
 }
 
 impl Default for Picture<'_> {
     fn default() -> Self {
         Self {
             size_px: 1000.0,
-            angle_range_deg: [30.0, 60.0],
+            bounds_deg: [30.0, 90.0],
+            colour_by: ColourBy::SmallestAngle,
             fill_triangles: true,
             edges: true,
             input_points: true,
+            histogram: false,
+            zoom: None,
             overlay: None,
         }
     }
@@ -50,18 +94,19 @@ impl Default for Picture<'_> {
 pub struct Overlay {
     /// What stands above the legend.
     pub title: String,
-    /// What polygons are told apart by.
+    /// What polygons are told apart by. The legend has those that occur.
     pub classes: Vec<OverlayClass>,
-    /// The polygons, later ones of the same class and level above earlier ones.
+    /// The polygons, convex, later ones of the same class and level above earlier
+    /// ones.
     pub polygons: Vec<Polygon>,
 }
 
-/// A line of the legend of an [`Overlay`].
+/// A line of the legend of an [`Overlay`] or of [`Groups`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct OverlayClass {
     /// What the legend says.
     pub label: String,
-    /// The colour of the polygons of the highest level.
+    /// The colour; in an overlay that of the polygons of the highest level.
     pub colour: Rgb,
 }
 
@@ -76,86 +121,83 @@ pub struct Polygon {
     pub level: u32,
 }
 
-/// A colour: red, green and blue, 0 to 255.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rgb(pub [u8; 3]);
-
-impl Rgb {
-    /// The colour between `self` at 0 and `other` at 1.
-    pub(crate) fn mix(self, other: Self, t: f64) -> Self {
-        let channel = |i: usize| {
-            let (from, to) = (f64::from(self.0[i]), f64::from(other.0[i]));
-            (from + (to - from) * t).round() as u8
-        };
-        Self([channel(0), channel(1), channel(2)])
+/// Checks what pictures rely on, beyond what every format does.
+pub(crate) fn check(view: &MeshView<'_>, file: &str) -> Result<(), WriteError> {
+    let picture = &view.picture;
+    let triangles = view.mesh.triangles.len();
+    let [low, high] = picture.bounds_deg;
+    if !(0.0..=60.0).contains(&low) || !(60.0..=180.0).contains(&high) {
+        return Err(WriteError::Bounds { file: file.to_owned(), low, high });
     }
-
-    pub(crate) fn hex(self) -> String {
-        let [r, g, b] = self.0;
-        format!("#{r:02x}{g:02x}{b:02x}")
+    if let Some(zoom) = picture.zoom {
+        check_zoom(zoom, &view.mesh.vertices, file)?;
     }
+    match picture.colour_by {
+        ColourBy::Region if view.regions.is_none() => Err(WriteError::NoRegions { file: file.to_owned() })?,
+        ColourBy::Groups(groups) => check_groups(groups, triangles, file)?,
+        _ => {}
+    }
+    picture.overlay.map_or(Ok(()), |overlay| check_overlay(overlay, file))
 }
 
-/// Colours of a scale from 0 to 1: five evenly spaced samples of viridis
-/// (Smith and van der Walt 2015), which is even to the eye, also without colour
-/// vision.
-const SCALE: [Rgb; 5] = [
-    Rgb([0x44, 0x01, 0x54]),
-    Rgb([0x3b, 0x52, 0x8b]),
-    Rgb([0x21, 0x91, 0x8c]),
-    Rgb([0x5e, 0xc9, 0x62]),
-    Rgb([0xfd, 0xe7, 0x25]),
-];
-
-/// The colour of the scale at `t` in 0 to 1.
-pub(crate) fn scale_colour(t: f64) -> Rgb {
-    let position = t.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
-    let below = (position as usize).min(SCALE.len() - 2);
-    SCALE[below].mix(SCALE[below + 1], position - below as f64)
-}
-
-impl Picture<'_> {
-    pub(crate) fn check(&self, file: &str) -> Result<(), WriteError> {
-        let Some(overlay) = self.overlay else {
+fn check_zoom([min, max]: [DVec2; 2], vertices: &[DVec2], file: &str) -> Result<(), WriteError> {
+    let fault = if !(min.is_finite() && max.is_finite()) {
+        "is not finite"
+    } else if !(min.x < max.x && min.y < max.y) {
+        "is empty"
+    } else {
+        let beside = |beyond: &dyn Fn(&DVec2) -> bool| vertices.iter().all(beyond);
+        let apart = beside(&|p| p.x <= min.x)
+            || beside(&|p| p.x >= max.x)
+            || beside(&|p| p.y <= min.y)
+            || beside(&|p| p.y >= max.y);
+        if !apart {
             return Ok(());
-        };
-        let count = overlay.classes.len();
-        for (index, polygon) in overlay.polygons.iter().enumerate() {
-            if polygon.class >= count {
-                return Err(WriteError::IndexOutOfRange {
-                    file: file.to_owned(),
-                    item: "polygon",
-                    index,
-                    target: polygon.class,
-                    count,
-                });
-            }
-            if let Some(p) = polygon.corners.iter().find(|p| !p.is_finite()) {
-                return Err(WriteError::NonFinite {
-                    file: file.to_owned(),
-                    item: "polygon",
-                    index,
-                    x: p.x,
-                    y: p.y,
-                });
-            }
         }
-        Ok(())
+        "lies beside the mesh"
+    };
+    Err(WriteError::Zoom { file: file.to_owned(), min, max, fault })
+}
+
+fn check_groups(groups: &Groups, triangles: usize, file: &str) -> Result<(), WriteError> {
+    let (found, count) = (groups.of_triangle.len(), groups.classes.len());
+    if found != triangles {
+        let (file, array) = (file.to_owned(), "groups of triangles");
+        return Err(WriteError::Length { file, array, expected: triangles, found });
+    }
+    match groups.of_triangle.iter().position(|&class| class as usize >= count) {
+        None => Ok(()),
+        Some(index) => Err(WriteError::IndexOutOfRange {
+            file: file.to_owned(),
+            item: "triangle",
+            index,
+            target: groups.of_triangle[index] as usize,
+            count,
+        }),
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_scale_passes_its_samples() {
-        for (i, colour) in SCALE.into_iter().enumerate() {
-            assert_eq!(scale_colour(i as f64 / 4.0), colour);
+fn check_overlay(overlay: &Overlay, file: &str) -> Result<(), WriteError> {
+    let count = overlay.classes.len();
+    for (index, polygon) in overlay.polygons.iter().enumerate() {
+        if polygon.class >= count {
+            return Err(WriteError::IndexOutOfRange {
+                file: file.to_owned(),
+                item: "polygon",
+                index,
+                target: polygon.class,
+                count,
+            });
         }
-        assert_eq!(scale_colour(-1.0), SCALE[0]);
-        assert_eq!(scale_colour(7.0), SCALE[4]);
-        assert_eq!(scale_colour(0.125), Rgb([0x40, 0x2a, 0x70]));
-        assert_eq!(Rgb([1, 2, 255]).hex(), "#0102ff");
+        if let Some(p) = polygon.corners.iter().find(|p| !p.is_finite()) {
+            return Err(WriteError::NonFinite {
+                file: file.to_owned(),
+                item: "polygon",
+                index,
+                x: p.x,
+                y: p.y,
+            });
+        }
     }
+    Ok(())
 }

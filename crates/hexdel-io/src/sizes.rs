@@ -48,7 +48,7 @@ pub fn parse_sizes(mut reader: impl BufRead, file: &str) -> Result<Vec<(DVec2, f
                 return Err(ReadError::Malformed {
                     file: file.to_owned(),
                     line,
-                    expected: "x, y and a size".into(),
+                    expected: "x, y and a size",
                     found: text.trim().chars().take(40).collect(),
                 });
             }

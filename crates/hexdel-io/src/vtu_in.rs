@@ -6,8 +6,8 @@
 //! base64, or appended, raw or in base64, in either byte order and compressed by zlib;
 //! see [`vtu_array`](crate::vtu_array).
 //!
-//! `quick-xml` cuts the text into tags. `vtkio` would decode all arrays of a file
-//! whether they are wanted or not, and its faults have no lines.
+//! `quick-xml` cuts the text into tags. `vtkio` holds all arrays of a file whether they
+//! are wanted or not, and its faults have no lines.
 
 use std::cell::Cell;
 use std::io::{self, BufRead, Read};
@@ -19,6 +19,7 @@ use quick_xml::events::{BytesStart, Event};
 
 use crate::data::MeshData;
 use crate::error::ReadError;
+use crate::lines::clip_message;
 use crate::view::MarkedEdge;
 use crate::vtu_array::{Appended, Array, Encoding, Values};
 
@@ -252,7 +253,7 @@ impl Grid {
     }
 
     fn fault(&self, message: String) -> ReadError {
-        ReadError::Xml { file: self.file.clone(), line: self.line.get(), message }
+        ReadError::Xml { file: self.file.clone(), line: self.line.get(), message: clip_message(message) }
     }
 
     /// Puts the pieces together.
@@ -288,12 +289,25 @@ impl Grid {
             self.points(points, data)?;
         }
         let here = data.mesh.vertices.len() - first;
-        let Some(types) = take(Want::Types) else {
-            return columns.points(self, take(Want::Markers), take(Want::Inputs), here);
+        self.cells(take, [first, here], data, columns)?;
+        columns.points(self, take(Want::Markers), take(Want::Inputs), here)
+    }
+
+    /// Takes the cells of a piece whose points are those from `first` on, `here` of
+    /// them.
+    fn cells<'v>(
+        &self,
+        take: impl Fn(Want) -> Option<&'v Values>,
+        [first, here]: [usize; 2],
+        data: &mut MeshData,
+        columns: &mut Columns,
+    ) -> Result<(), ReadError> {
+        let Some(types) = take(Want::Types).filter(|types| types.len() > 0) else {
+            return Ok(());
         };
-        let empty = Values::default();
-        let connectivity = take(Want::Connectivity).unwrap_or(&empty);
-        let offsets = take(Want::Offsets).unwrap_or(&empty);
+        let (Some(connectivity), Some(offsets)) = (take(Want::Connectivity), take(Want::Offsets)) else {
+            return Err(self.fault("cells without connectivity or offsets".to_owned()));
+        };
         self.same_length("offsets", types.len(), offsets.len())?;
         let [regions, markers] = [take(Want::Regions), take(Want::EdgeMarkers)];
         for (name, column) in [("regions", regions), ("cell markers", markers)] {
@@ -326,7 +340,7 @@ impl Grid {
             }
             start = end;
         }
-        columns.points(self, take(Want::Markers), take(Want::Inputs), here)
+        Ok(())
     }
 
     fn points(&self, points: &Values, data: &mut MeshData) -> Result<(), ReadError> {

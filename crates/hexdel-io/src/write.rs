@@ -12,7 +12,9 @@ use crate::format::{MeshFormat, PointFormat};
 use crate::read::beside;
 use crate::text::TextWriter;
 use crate::view::MeshView;
-use crate::{graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, svg, triangle_out, vtu};
+use crate::{
+    graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, picture, svg, triangle_out, vtu,
+};
 
 /// Writes a mesh, or its picture, in the format that the extension stands for.
 ///
@@ -162,6 +164,8 @@ fn stream_writer(format: MeshFormat) -> Option<StreamWriter> {
         MeshFormat::Json => Some(mesh_json::write_json),
         MeshFormat::Ron => Some(mesh_ron::write_ron),
         MeshFormat::Svg => Some(svg::write_svg),
+        #[cfg(feature = "png")]
+        MeshFormat::Png => Some(crate::png::write_png),
         MeshFormat::NodeEle => None,
     }
 }
@@ -169,7 +173,7 @@ fn stream_writer(format: MeshFormat) -> Option<StreamWriter> {
 fn check(format: MeshFormat, view: &MeshView<'_>, name: &str) -> Result<(), WriteError> {
     view.check(name)?;
     match format {
-        MeshFormat::Svg => view.picture.check(name),
+        format if format.is_picture() => picture::check(view, name),
         MeshFormat::Medit => medit::check_regions(view, name),
         MeshFormat::Json => {
             graph_json::check_numbers(view.regions.unwrap_or(&[]).iter().copied(), "region of triangle", name)

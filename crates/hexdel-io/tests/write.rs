@@ -287,7 +287,7 @@ fn svg_draws_every_triangle_point_and_label() {
 fn svg_marks_triangles_below_the_scale() {
     let mesh = squares(1);
     let mut picture = Picture::default();
-    picture.angle_range_deg = [50.0, 60.0];
+    picture.bounds_deg = [50.0, 90.0];
     let svg = text(MeshFormat::Svg, &MeshView::new(&mesh).with_picture(picture));
     assert!(svg.contains("below 50°: 2"));
 }

@@ -50,6 +50,8 @@ pub(crate) struct Limits {
     target: Cot,
     lower: SinCos,
     upper: SinCos,
+    /// Cotangent of the largest angle that a certificate tolerates.
+    tolerated: f64,
     /// The promised bounds, radians.
     pub(crate) min_rad: f64,
     pub(crate) max_rad: f64,
@@ -88,10 +90,19 @@ impl Limits {
             target: inset(SLACK_DEG),
             lower: sin_cos(lo + slack),
             upper: sin_cos(hi - slack),
+            tolerated: cot(hi + hexdel_geom::ANGLE_TOLERANCE_DEG.to_radians()),
             min_rad: lo,
             max_rad: hi,
             check_delaunay: bounds.max_deg() > 90.0,
         }
+    }
+
+    /// The same without tolerance for triangles that were never moved.
+    ///
+    /// Right angles on both sides of an edge leave it to rounding whether the
+    /// edge is Delaunay.
+    pub(crate) fn without_tolerance(self) -> Self {
+        Self { loose: self.strict, ..self }
     }
 
     /// Whether the triangle keeps the bounds with the solver's margin.
@@ -208,17 +219,20 @@ impl Place {
         self.0 & 8 != 0
     }
 
-    /// The triangle as the lower bound sees it: a corner whose angle is the
-    /// input's is wide enough.
+    /// The triangle as the bounds see it: a corner whose angle is the input's
+    /// is inside unless it is past the upper bound by more than rounding.
     #[inline]
-    pub(crate) fn view(self, m: Measure) -> Measure {
-        if self.0 & EXCUSED == 0 || m.cross <= 0.0 { m } else { self.excuse(m) }
+    pub(crate) fn view(self, m: Measure, limits: &Limits) -> Measure {
+        if self.0 & EXCUSED == 0 || m.cross <= 0.0 { m } else { self.excuse(m, limits) }
     }
 
     #[cold]
-    fn excuse(self, mut m: Measure) -> Measure {
+    fn excuse(self, mut m: Measure, limits: &Limits) -> Measure {
+        let least = m.cross * limits.tolerated;
         for k in (0..3).filter(|k| self.0 >> k & 1 == 1) {
-            m.dot[k] = m.dot[k].min(m.cross * COT_INSIDE);
+            if m.dot[k] >= least {
+                m.dot[k] = m.cross * COT_INSIDE;
+            }
         }
         m
     }

@@ -10,6 +10,7 @@ use crate::angles::Measure;
 use crate::constraints::Rules;
 use crate::mesh::{Mesh, Motion, NONE};
 use crate::refill::{Corner, MAX_CORNERS, Refills};
+use crate::segment::SegmentHole;
 
 /// What is done to the disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +19,10 @@ pub(crate) enum Action {
     Remove { vertex: u32, refill: usize },
     /// The disc gets a new vertex joined to its whole outline.
     Insert { disc: [u32; 6], len: usize, at: DVec2 },
+    /// The disc around this vertex on a segment is refilled without it.
+    Dissolve { vertex: u32 },
+    /// The side opposite a corner, on a segment, gets a vertex in the middle.
+    Split { triangle: u32, corner: usize },
     /// The side opposite a corner is exchanged for the other diagonal.
     Flip { triangle: u32, corner: usize },
 }
@@ -27,7 +32,7 @@ impl Action {
     pub(crate) fn region(self, mesh: &Mesh, verts: &mut Vec<u32>) {
         verts.clear();
         match self {
-            Self::Remove { vertex, .. } => {
+            Self::Remove { vertex, .. } | Self::Dissolve { vertex } => {
                 mesh.ring(vertex, &mut Vec::new(), verts);
                 verts.push(vertex);
             }
@@ -36,6 +41,7 @@ impl Action {
                     verts.extend(d);
                 }
             }
+            Self::Split { triangle, .. } => verts.extend(mesh.tri[triangle as usize].v),
             Self::Insert { disc, len, .. } => {
                 verts.extend(outline(mesh, &disc[..len]).unwrap_or_default());
             }
@@ -49,6 +55,10 @@ pub(crate) struct Change {
     pub(crate) cost: f64,
     pub(crate) action: Action,
 }
+
+/// What a vertex with two triangles on a side of a segment costs: as in
+/// `refill`, for the room that one of three triangles leaves.
+const SPLIT_COST: f64 = 0.1;
 
 /// Weight of the squared angles outside, as in `refill`.
 const SHAPE_WEIGHT: f64 = 0.1;
@@ -69,13 +79,16 @@ impl Finder<'_> {
         let tri = self.mesh.tri[t as usize];
         for &v in around {
             self.removals(v);
+            self.dissolutions(v);
         }
         for k in 0..3 {
             self.flips(t, k);
+            self.splits(t, k);
             let n = tri.n[k];
             for j in (0..3).filter(|_| n != NONE) {
                 if self.mesh.tri[n as usize].n[j] != t {
                     self.flips(n, j);
+                    self.splits(n, j);
                 }
             }
         }
@@ -115,7 +128,8 @@ impl Finder<'_> {
     /// What the angles of triangle `t` are outside.
     fn energy(&self, t: u32) -> f64 {
         let place = self.mesh.place(t);
-        self.rules.limits(place).energy(&place.view(self.mesh.measure(t)))
+        let limits = self.rules.limits(place);
+        limits.energy(&place.view(self.mesh.measure(t), limits))
     }
 
     fn removals(&mut self, v: u32) {
@@ -135,6 +149,23 @@ impl Finder<'_> {
         for (cost, refill) in chosen {
             let cost = cost - before - SHAPE_WEIGHT * old;
             self.out.push(Change { cost, action: Action::Remove { vertex: v, refill } });
+        }
+    }
+
+    fn dissolutions(&mut self, v: u32) {
+        let Some(hole) = SegmentHole::of(self.mesh, v) else { return };
+        if let Some(refill) = hole.refill(self.mesh, self.rules, self.refills) {
+            self.out.push(Change { cost: refill.cost, action: Action::Dissolve { vertex: v } });
+        }
+    }
+
+    /// Splits the side opposite corner `k`, if it is on a segment. Flips are to
+    /// give the new vertex more than two triangles on each side.
+    fn splits(&mut self, t: u32, k: usize) {
+        let tri = self.mesh.tri[t as usize];
+        if tri.is_bound(k) {
+            let cost = SPLIT_COST + self.cost_at(tri.v[k], t, 1) - SHAPE_WEIGHT * self.energy(t);
+            self.out.push(Change { cost, action: Action::Split { triangle: t, corner: k } });
         }
     }
 
@@ -234,7 +265,12 @@ pub(crate) fn outline(mesh: &Mesh, disc: &[u32]) -> Option<Vec<u32>> {
 
 /// Makes the change; the vertices whose motion should settle it are put into
 /// `verts`. False, and nothing changed, where the topology forbids it.
-pub(crate) fn apply(mesh: &mut Mesh, refills: &Refills, action: Action, verts: &mut Vec<u32>) -> bool {
+pub(crate) fn apply(
+    mesh: &mut Mesh,
+    (rules, refills): (&Rules<'_>, &Refills),
+    action: Action,
+    verts: &mut Vec<u32>,
+) -> bool {
     verts.clear();
     let mut made = Vec::new();
     match action {
@@ -246,6 +282,18 @@ pub(crate) fn apply(mesh: &mut Mesh, refills: &Refills, action: Action, verts: &
                 return false;
             }
             mesh.replace(&tris, &new, &mut made);
+        }
+        Action::Dissolve { vertex } => {
+            let Some(hole) = SegmentHole::of(mesh, vertex) else { return false };
+            let Some(refill) = hole.refill(mesh, rules, refills) else { return false };
+            hole.fill(mesh, &refill);
+            verts.extend(hole.ring());
+        }
+        Action::Split { triangle, corner } => {
+            verts.extend(mesh.tri[triangle as usize].v);
+            let Some(v) = mesh.split_edge(triangle, corner, &mut made) else { return false };
+            mesh.ring(v, &mut Vec::new(), verts);
+            verts.push(v);
         }
         Action::Flip { triangle, corner } => {
             let Some((_, d)) = mesh.diamond(triangle, corner) else {

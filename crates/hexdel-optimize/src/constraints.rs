@@ -26,6 +26,10 @@ pub struct Constraints<'a> {
     /// vertex on a segment or from one of `points`, instead of those of the
     /// options. They must be wider.
     pub near: AngleBounds,
+    /// Whether an angle that is exactly at a bound of `near`, up to rounding,
+    /// is out of it. Right angles on both sides of an edge leave it to rounding
+    /// whether the edge is Delaunay.
+    pub strict: bool,
     /// No change makes a triangle larger than this where its centroid lies;
     /// square units of the mesh.
     pub max_area: Option<AreaLimit<'a>>,
@@ -38,6 +42,7 @@ impl std::fmt::Debug for Constraints<'_> {
             .field("edges", &self.edges.len())
             .field("points", &self.points.len())
             .field("near", &self.near)
+            .field("strict", &self.strict)
             .field("max_area", &self.max_area.is_some())
             .finish()
     }
@@ -82,7 +87,11 @@ impl<'a> Rules<'a> {
     pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
         Self {
             far: Limits::new(bounds),
-            near: Limits::new(constraints.map_or(bounds, |c| c.near)),
+            near: match constraints {
+                None => Limits::new(bounds),
+                Some(c) if c.strict => Limits::new(c.near).without_tolerance(),
+                Some(c) => Limits::new(c.near),
+            },
             max_area: constraints.and_then(|c| c.max_area),
         }
     }
@@ -108,7 +117,14 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(crate) fn is_good(&self, mesh: &Mesh, t: u32) -> bool {
         let place = mesh.place(t);
-        self.limits(place).loose(&place.view(mesh.measure(t)))
+        self.is_within(place, mesh.measure(t))
+    }
+
+    /// Whether a triangle at such a place keeps its bounds.
+    #[inline]
+    pub(crate) fn is_within(&self, place: Place, m: Measure) -> bool {
+        let limits = self.limits(place);
+        limits.loose(&place.view(m, limits))
     }
 
     /// Whether a triangle is no larger than it may be.

@@ -17,7 +17,7 @@
 //! | `decimate` | removes vertices |
 //! | `sizing` | [`Sizing`]: how long edges may be |
 //! | `shake` | random changes that let more vertices go |
-//! | `change`, `refill` | candidate changes of topology and their ranking |
+//! | `change`, `refill`, `segment` | candidate changes of topology and their ranking |
 //! | `work` | a mesh under work: patch, flips, commit, rollback |
 //! | `patch` | moves the vertices of a patch until its angles hold |
 //! | `flip` | Lawson flips in a patch |
@@ -47,6 +47,7 @@ mod refill;
 mod repair;
 mod rescue;
 mod schedule;
+mod segment;
 mod shake;
 mod sizing;
 mod work;

@@ -40,8 +40,8 @@ pub(crate) fn step(round: usize) -> Step {
     }
 }
 
-/// Rounds that come before removals: motion alone.
-pub(crate) const FIRST_ROUNDS: usize = 3;
+/// The motions that come before each pass of removals.
+pub(crate) const MOVES: [&[usize]; 2] = [&[0, 1], &[2]];
 
 /// The steps of each round of search, after which a mesh is given up.
 pub(crate) const SEARCH: [(usize, usize); 7] =
@@ -65,13 +65,22 @@ const FINALISTS: usize = 4;
 
 /// One round over the bad triangles.
 pub(crate) fn repair(work: &mut Work, step: Step) {
+    // Vertices of patches that did not settle: what they could not do for one
+    // triangle they need not try for the next.
+    let mut tried = vec![false; work.mesh.pos.len()];
     for t in work.bad() {
         if !work.is_bad(t) {
             continue;
         }
         match step {
             Step::Move { rings } => {
-                move_rings(work, t, rings);
+                let free = |v: &&u32| !work.mesh.is_fixed(**v);
+                if work.mesh.tri[t as usize].v.iter().filter(free).all(|v| tried[*v as usize]) {
+                    continue;
+                }
+                if !move_rings(work, t, rings) {
+                    work.patch.movable().iter().for_each(|v| tried[*v as usize] = true);
+                }
             }
             Step::Search { changes, rings, wide } => {
                 if !move_rings(work, t, rings) && work.is_bad(t) {
@@ -82,6 +91,13 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
             Step::Thin => thin(work, t),
             Step::Refine => refine(work, t, TOLERATED),
         }
+    }
+}
+
+/// Moves what is bad before pass `pass` of removals.
+pub(crate) fn moves(work: &mut Work, pass: usize) {
+    for &i in MOVES.get(pass).copied().unwrap_or_default() {
+        repair(work, step(i));
     }
 }
 
@@ -198,7 +214,7 @@ fn attempt(
     join(&mut verts);
     load_rings(work, &verts, rings);
     let before = work.patch.state(work.rules).energy;
-    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+    if !apply(&mut work.mesh, (work.rules, work.refills), action, &mut verts) {
         work.mesh.rollback();
         return None;
     }

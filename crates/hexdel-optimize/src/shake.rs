@@ -86,7 +86,7 @@ fn transplant(work: &mut Work, v: u32) -> bool {
         return false;
     };
     let mut verts = Vec::new();
-    if !apply(&mut work.mesh, work.refills, action, &mut verts) {
+    if !apply(&mut work.mesh, (work.rules, work.refills), action, &mut verts) {
         return false;
     }
     let near: Vec<u32> = ring.into_iter().filter(|w| !verts.contains(w)).collect();

@@ -43,8 +43,6 @@ pub(crate) struct Work<'a> {
 pub(crate) struct Scratch {
     pub(crate) tris: Vec<u32>,
     pub(crate) ring: Vec<u32>,
-    /// Where in a ring the segment through its vertex leaves; it enters at 0.
-    pub(crate) split: usize,
     pub(crate) made: Vec<u32>,
     pub(crate) chosen: Vec<(f64, usize)>,
     pub(crate) new: Vec<[u32; 3]>,

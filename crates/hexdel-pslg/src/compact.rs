@@ -21,6 +21,8 @@ pub(crate) struct Kept<'a> {
     pub(crate) pieces: &'a [Piece],
     pub(crate) judge: Judge<'a>,
     pub(crate) areas: Option<&'a AreaLimits<'a>>,
+    /// Whether right angles near segments are to go, too.
+    pub(crate) strict: bool,
 }
 
 /// Takes vertices out of a net. It stays as it was if more triangles would be
@@ -38,6 +40,7 @@ pub(crate) fn compact(
         edges: taken.edges.clone(),
         points: taken.sites(),
         near: kept.judge.near,
+        strict: kept.strict,
         max_area: kept.areas.map(|_| &limit as _),
     };
     let options = Options::new(kept.judge.far, effort);

@@ -6,7 +6,7 @@ use crate::compact::{Kept, compact};
 use crate::embed::embed;
 use crate::error::PslgError;
 use crate::fit::judge::{Judge, Wedges};
-use crate::fit::{bad_triangles, optimise};
+use crate::fit::optimise;
 use crate::hull::with_hull;
 use crate::net::Net;
 use crate::options::{Extent, Options, SegmentMethod};
@@ -20,6 +20,7 @@ use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
 use hexdel_grid::Lattice;
+use hexdel_optimize::Effort;
 
 /// Where a triangle has failed, hexagons are made this much smaller than its
 /// edges; levels being powers of two, that is one level.
@@ -87,35 +88,35 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     let mut best: Option<(usize, Net)> = None;
     let mut attempt = 0;
     loop {
-        let net = mesher.attempt(&demands, monitor)?;
-        let bad = bad_triangles(&net, mesher.judge());
-        let (near, elsewhere): (Vec<u32>, Vec<u32>) = bad.iter().partition(|&&t| mesher.is_hopeless(&net, t));
-        // What fails beside a narrow sector counts less than any other.
-        let large = mesher.too_large(&net);
-        let score = (elsewhere.len() + large.len()) * 1_000_000 + near.len();
-        demands.extend(elsewhere.iter().chain(&large).map(|&t| demand_at(&net, t)));
-        if best.as_ref().is_none_or(|(least, _)| score < *least) {
-            best = Some((score, net));
+        let net = mesher.compacted(mesher.attempt(&demands, monitor)?, monitor)?;
+        let left = mesher.left(&net);
+        demands.extend(left.elsewhere.iter().map(|&t| demand_at(&net, t)));
+        if best.as_ref().is_none_or(|(least, _)| left.score() < *least) {
+            best = Some((left.score(), net));
         }
-        if (elsewhere.is_empty() && large.is_empty()) || attempt == options.retries {
+        if left.elsewhere.is_empty() || attempt == options.retries {
             break;
         }
         attempt += 1;
     }
-    let (_, mut net) = best.expect("the first attempt is the best of one at least");
+    let (_, net) = best.expect("the first attempt is the best of one at least");
     check(monitor)?;
-    if let Some(effort) = options.compact {
-        let kept = Kept { pieces: &mesher.pieces, judge: mesher.judge(), areas: mesher.areas.as_ref() };
-        net = compact(net, &kept, effort, monitor)?;
+    mesher.finished(net, attempt, monitor)
+}
+
+/// Triangles that are not as they should be.
+struct Left {
+    /// Beside a sector in which no mesh could keep the bounds.
+    hopeless: usize,
+    /// All others, too large ones included.
+    elsewhere: Vec<u32>,
+}
+
+impl Left {
+    /// What is hopeless counts less than anything else.
+    fn score(&self) -> usize {
+        self.elsewhere.len() * 1_000_000 + self.hopeless
     }
-    let parts = Parts {
-        input,
-        pieces: &mesher.pieces,
-        sectors: &mesher.sectors,
-        judge: mesher.judge(),
-        method: options.method,
-    };
-    output::finish(net, &parts, attempt, monitor)
 }
 
 /// A wish for smaller hexagons around a failed triangle.
@@ -123,7 +124,9 @@ pub(crate) fn demand_at(net: &Net, t: u32) -> Demand {
     let [a, b, c] = net.corners(t);
     let lengths = [a.distance(b), b.distance(c), c.distance(a)];
     let mean = lengths.iter().sum::<f64>() / 3.0;
-    Demand { centre: (a + b + c) / 3.0, radius: REFINED_RADIUS * mean, spacing: REFINEMENT * mean }
+    // Removals make long edges; it is the short ones that had no room.
+    let shortest = lengths.into_iter().fold(mean, f64::min);
+    Demand { centre: (a + b + c) / 3.0, radius: REFINED_RADIUS * mean, spacing: REFINEMENT * shortest }
 }
 
 struct Mesher<'a> {
@@ -174,6 +177,48 @@ impl<'a> Mesher<'a> {
     /// The triangles larger than allowed where their centroids lie.
     fn too_large(&self, net: &Net) -> Vec<u32> {
         self.areas.as_ref().map_or_else(Vec::new, |areas| areas.exceeded(net))
+    }
+
+    fn left(&self, net: &Net) -> Left {
+        let bad: Vec<u32> = net.alive().filter(|&t| self.judge().is_out(net, t)).collect();
+        let (hopeless, mut elsewhere): (Vec<u32>, Vec<u32>) =
+            bad.iter().partition(|&&t| self.is_hopeless(net, t));
+        elsewhere.extend(self.too_large(net));
+        Left { hopeless: hopeless.len(), elsewhere }
+    }
+
+    /// The mesh without the vertices that it can do without. What is still out
+    /// of bounds gets another chance on the way, where it is.
+    fn compacted(&self, net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
+        let effort = match self.options.compact {
+            Some(effort) => effort,
+            None if self.left(&net).elsewhere.is_empty() => return Ok(net),
+            None => Effort::Repair,
+        };
+        Ok(compact(net, &self.kept(false), effort, monitor)?)
+    }
+
+    fn kept(&self, strict: bool) -> Kept<'_> {
+        Kept { pieces: &self.pieces, judge: self.judge(), areas: self.areas.as_ref(), strict }
+    }
+
+    /// The result; without right angles near segments if rounding took some of
+    /// them from Delaunay.
+    fn finished(&self, net: Net, retries: u32, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
+        let parts = Parts {
+            input: self.input,
+            pieces: &self.pieces,
+            sectors: &self.sectors,
+            judge: self.judge(),
+            method: self.options.method,
+        };
+        let made = output::finish(net.clone(), &parts, retries, monitor)?;
+        if made.certificate.delaunay || !made.failed.is_empty() {
+            return Ok(made);
+        }
+        let again = compact(net, &self.kept(true), Effort::Repair, monitor)?;
+        let again = output::finish(again, &parts, retries, monitor)?;
+        Ok(if again.certificate.delaunay && again.failed.is_empty() { again } else { made })
     }
 
     /// One mesh, from the grid on.

@@ -73,6 +73,9 @@ pub struct Refiner {
 /// would take longer.
 const TILES_PER_TASK: usize = 64;
 
+/// Points moved down at once.
+const SITES_AT_ONCE: usize = 1 << 12;
+
 impl Refiner {
     /// An empty grid on `lattice` that is to obey `rules`.
     pub fn new(lattice: Lattice, rules: RuleSet) -> Self {
@@ -310,20 +313,20 @@ impl Refiner {
     /// Puts points one level down.
     fn descend(&mut self, moving: &[u32]) -> Result<(), RefineError> {
         let (lattice, levels) = (*self.grid.lattice(), Grid::MAX_LEVELS);
-        let lower = |&id: &u32| {
-            let s = self.sites.get(id);
-            Site::new(&lattice, s.level + 1, s.point)
-        };
-        let lowered: Vec<_> = moving.par_iter().with_min_len(TILES_PER_TASK).map(lower).collect();
-        for (&id, site) in moving.iter().zip(lowered) {
-            if site.level >= levels {
-                return Err(RefineError::TooClose {
-                    site: self.sites.index_of(id),
-                    point: site.point,
-                    levels,
-                });
+        // As many at once as the cache holds.
+        for some in moving.chunks(SITES_AT_ONCE) {
+            let lower = |&id: &u32| {
+                let s = self.sites.get(id);
+                Site::new(&lattice, s.level + 1, s.point)
+            };
+            let lowered: Vec<_> = some.par_iter().with_min_len(TILES_PER_TASK).map(lower).collect();
+            for (&id, site) in some.iter().zip(lowered) {
+                if site.level >= levels {
+                    let (site, point) = (self.sites.index_of(id), site.point);
+                    return Err(RefineError::TooClose { site, point, levels });
+                }
+                *self.sites.get_mut(id) = site;
             }
-            *self.sites.get_mut(id) = site;
         }
         Ok(())
     }

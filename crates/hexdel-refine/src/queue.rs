@@ -2,15 +2,23 @@
 
 use hexdel_grid::TileId;
 use hexdel_grid::window::ones;
-use std::ops::Range;
 
 /// A set of tiles of one level, taken in the order of their ids.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Queue {
     /// A bit per tile id; clear beyond the end.
     words: Vec<u64>,
-    /// All words that are not zero lie in here; empty if there are none.
-    busy: Range<usize>,
+    /// All words that are not zero lie from here ..
+    start: usize,
+    /// .. to before here; if there are none, this is 0 and the start is the
+    /// largest of numbers, such that a word more is a minimum and a maximum.
+    end: usize,
+}
+
+impl Default for Queue {
+    fn default() -> Self {
+        Self { words: Vec::new(), start: usize::MAX, end: 0 }
+    }
 }
 
 impl Queue {
@@ -22,28 +30,26 @@ impl Queue {
             self.words.resize((word + 1).next_power_of_two(), 0);
         }
         self.words[word] |= 1 << bit;
-        self.busy = if self.busy.is_empty() {
-            word..word + 1
-        } else {
-            self.busy.start.min(word)..self.busy.end.max(word + 1)
-        };
+        (self.start, self.end) = (self.start.min(word), self.end.max(word + 1));
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.busy.is_empty()
+        self.end == 0
     }
 
     /// The tiles, in order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = TileId> {
-        let words = self.busy.clone().map(|word| (64 * word, self.words[word]));
+        let words = (self.start..self.end).map(|word| (64 * word, self.words[word]));
         words.flat_map(|(first, word)| ones(word).map(move |bit| TileId::new(first + bit as usize)))
     }
 
     /// Empties the queue; in order.
     pub(crate) fn take(&mut self) -> Vec<TileId> {
         let tiles = self.iter().collect();
-        self.words[self.busy.clone()].fill(0);
-        self.busy = 0..0;
+        if !self.is_empty() {
+            self.words[self.start..self.end].fill(0);
+            (self.start, self.end) = (usize::MAX, 0);
+        }
         tiles
     }
 }

@@ -3,7 +3,7 @@
 use hexdel_classify::Occupant;
 use hexdel_classify::relocate::ring_may_stay;
 use hexdel_geom::DVec2;
-use hexdel_grid::double::Double;
+use hexdel_geom::double_double::Double;
 use hexdel_grid::{Hex, Lattice, Located, TileId};
 use rayon::prelude::*;
 

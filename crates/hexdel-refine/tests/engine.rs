@@ -3,7 +3,7 @@
 
 use hexdel_classify::{Domain, Dual, Relocation, extract};
 use hexdel_geom::{AngleBounds, DVec2, TriangleId, Unwatched};
-use hexdel_grid::Lattice;
+use hexdel_grid::{Address, Hex, Lattice};
 use hexdel_refine::{RefineError, Refiner, RuleSet};
 use proptest::prelude::*;
 
@@ -181,4 +181,46 @@ fn the_same_bytes_at_one_two_and_eight_threads() {
             assert_eq!(one.vertex_of_occupant, many.vertex_of_occupant);
         }
     }
+}
+
+/// By how many steps the closure of some hexagons of a level leaves the
+/// smallest lattice hexagon around them, over all six sides.
+fn excess_of_closure(seeds: &[Hex]) -> i64 {
+    const LEVEL: u8 = 7;
+    let mut refiner =
+        Refiner::new(Lattice::new(DVec2::ZERO, 1.0), RuleSet::extended()).with_coarsening(false);
+    let seeds_at = seeds.iter().map(|&hex| Address::new(LEVEL, hex));
+    refiner.subdivide_all(seeds_at, &Unwatched).expect("there are levels enough");
+    assert_eq!(refiner.violation(), None);
+    let closure: Vec<Hex> =
+        refiner.grid().subdivided().filter(|at| at.level == LEVEL).map(|at| at.hex).collect();
+    assert!(closure.len() >= seeds.len());
+    let sides = [|h: &Hex| h.q, |h: &Hex| h.r, |h: &Hex| h.q + h.r];
+    let excess = sides.into_iter().flat_map(|x| {
+        let reach = |set: &[Hex], sign: i64| set.iter().map(|h| sign * x(h)).max().unwrap_or(0);
+        [1, -1].map(|sign| reach(&closure, sign) - reach(seeds, sign))
+    });
+    excess.max().unwrap_or(0)
+}
+
+#[test]
+fn a_level_closes_about_within_the_hexagon_around_what_it_began_with() {
+    let mut worst = 0;
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    for i in 0..300 {
+        let (radius, share) = (3 + i % 9, 1 + u64::from(i / 9 % 12));
+        let mut pick = |_: &Hex| {
+            random ^= random << 13;
+            random ^= random >> 7;
+            random ^= random << 17;
+            (random >> 33) % 13 < share
+        };
+        // Discs, rings and arcs with holes in them.
+        let from = if i % 2 == 0 { 0 } else { radius - radius.min(2) };
+        let seeds: Vec<Hex> = (from..=radius).flat_map(|n| Hex::ORIGIN.ring(n)).filter(&mut pick).collect();
+        if !seeds.is_empty() {
+            worst = worst.max(excess_of_closure(&seeds));
+        }
+    }
+    assert!(worst <= 2, "{worst} steps out");
 }

@@ -5,11 +5,12 @@
 //! (Fig. 8 and 9). Those grids are made by hand, so every figure's mesh is
 //! certified before it is drawn.
 
+use super::Files;
 use hexdel::classify::hexagons::hexagons;
 use hexdel::classify::{Domain, Occupant, Relocation, extract};
 use hexdel::geom::{CertifyOptions, certify};
 use hexdel::grid::{Address, Direction, Grid, Hex, Lattice};
-use hexdel::io::{MeshFormat, MeshView, Overlay, OverlayClass, Picture, read_points, write_mesh_to};
+use hexdel::io::{MeshFormat, MeshView, Overlay, Picture, read_points, write_mesh_to};
 use hexdel::refine::{Refiner, RuleSet};
 use hexdel::{AngleBounds, DVec2, Mesher, Method, TriMesh, Unwatched};
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,13 +23,16 @@ const SMALL_PX: f64 = 360.0;
 /// The longer side of a meshed fixture, pixels.
 const LARGE_PX: f64 = 640.0;
 
-/// Every figure by file name.
-pub(super) fn all(root: &Path) -> Result<BTreeMap<String, Vec<u8>>, Box<dyn Error>> {
+/// Where the figures lie, below the documents.
+pub(super) const FOLDER: &str = "figures/algorithm";
+
+/// Every figure by its path below the documents.
+pub(super) fn all(root: &Path) -> Result<Files, Box<dyn Error>> {
     let mut figures = of_fixture(root, "five")?;
     figures.extend(of_grid()?);
     figures.extend(of_templates()?);
     figures.extend(of_points()?);
-    Ok(figures)
+    Ok(figures.into_iter().map(|(name, svg)| (format!("{FOLDER}/{name}"), svg)).collect())
 }
 
 type Figures = Result<Vec<(String, Vec<u8>)>, Box<dyn Error>>;
@@ -40,11 +44,10 @@ fn of_fixture(root: &Path, name: &str) -> Result<BTreeMap<String, Vec<u8>>, Box<
     let mut figures = BTreeMap::new();
     for (method, suffix) in [(Method::Simple, "simple"), (Method::Templates, "templates")] {
         let made = Mesher::new().method(method).triangulate(&points)?;
-        let overlay = used_classes(made.overlay());
         let drawing = Drawing {
             mesh: &made.mesh,
             inputs: made.input_of_vertex(),
-            overlay: if method == Method::Simple { unmoved(overlay) } else { overlay },
+            overlay: made.overlay(),
             bounds: method.bounds(),
             size_px: LARGE_PX,
         };
@@ -133,10 +136,9 @@ fn template(mut grid: Grid, occupants: &[Occupant], bounds: AngleBounds) -> Resu
     for (i, vertex) in dual.vertex_of_occupant.iter().enumerate() {
         inputs[vertex.index()] = Some(i as u32);
     }
-    let mut overlay = used_classes(hexdel::picture::overlay(hexagons(&grid, domain, occupants)));
-    if simple {
-        overlay = unmoved(overlay);
-    }
+    let hexagons = hexagons(&grid, domain, occupants);
+    let overlay =
+        if simple { hexdel::picture::plain_overlay(hexagons) } else { hexdel::picture::overlay(hexagons) };
     Drawing { mesh: &dual.mesh, inputs, overlay, bounds, size_px: SMALL_PX }.svg(Show::Dual)
 }
 
@@ -164,7 +166,7 @@ impl Drawing<'_> {
     fn svg(&self, show: Show) -> Result<Vec<u8>, Box<dyn Error>> {
         let mut picture = Picture::default();
         picture.size_px = self.size_px;
-        picture.angle_range_deg = [self.bounds.min_deg(), 60.0];
+        picture.bounds_deg = [self.bounds.min_deg(), self.bounds.max_deg()];
         picture.fill_triangles = show == Show::Mesh;
         picture.edges = show != Show::Hexagons;
         picture.overlay = Some(&self.overlay).filter(|_| show != Show::Mesh);
@@ -173,35 +175,4 @@ impl Drawing<'_> {
         write_mesh_to(&mut svg, MeshFormat::Svg, &view, "figure")?;
         Ok(svg)
     }
-}
-
-/// The layer without the classes that nothing in it has.
-fn used_classes(mut overlay: Overlay) -> Overlay {
-    let used: BTreeSet<usize> = overlay.polygons.iter().map(|p| p.class).collect();
-    for polygon in &mut overlay.polygons {
-        polygon.class = used.range(..polygon.class).count();
-    }
-    overlay.classes = used.iter().map(|&class| overlay.classes[class].clone()).collect();
-    overlay
-}
-
-/// The layer with semi-hexagons, full and occupied ones told apart, no more:
-/// where no centre moves, the other classes are without meaning.
-fn unmoved(mut overlay: Overlay) -> Overlay {
-    let label = |old: &str| match old {
-        "semi-hexagon" => "semi-hexagon",
-        "occupied 1" | "occupied 2" => "occupied",
-        _ => "full hexagon",
-    };
-    for class in &mut overlay.classes {
-        class.label = label(&class.label).to_owned();
-    }
-    let first = |class: usize| {
-        let same = |other: &OverlayClass| other.label == overlay.classes[class].label;
-        overlay.classes.iter().position(same).unwrap_or(class)
-    };
-    for polygon in &mut overlay.polygons {
-        polygon.class = first(polygon.class);
-    }
-    used_classes(overlay)
 }

@@ -110,9 +110,14 @@ impl<'a> OwnerTile<'a> {
                 let block = layout.block(level, there);
                 let seen = block.vertices & COLUMNS[(column + 1) as usize] & ROWS[(row + 1) as usize];
                 let corner = Hex::new(8 * column, 8 * row);
-                if (column, row) == (0, 0) {
-                    for (bit, vertex) in ones(seen).zip(block.first_vertex..) {
-                        ids[place(hex_of(bit))] = vertex;
+                if seen == 0 {
+                    continue;
+                }
+                if column == 0 {
+                    // Whole rows: one rank is enough.
+                    let first = block.vertex(seen.trailing_zeros()).index() as u32;
+                    for (bit, vertex) in ones(seen).zip(first..) {
+                        ids[place(corner + hex_of(bit))] = vertex;
                     }
                 } else {
                     for bit in ones(seen) {

@@ -4,19 +4,21 @@ use super::layout::{Block, Layout};
 use super::{Occupant, Relocation, star};
 use crate::exact::Offset;
 use crate::relocate::{relocation, ring_may_stay, ring_shift};
+use hexdel_geom::double_double::Double;
 use hexdel_geom::{DVec2, VertexId};
-use hexdel_grid::double::Double;
 use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Direction, Hex, Lattice, TileId};
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// Places the vertices of a tile by their classes.
 pub(super) fn fill_tile(layout: &Layout, level: u8, id: TileId, out: &mut [[f64; 2]]) {
     let block = layout.block(level, id);
     let frame = Frame::new(layout, level, id);
+    let centres = centres();
     for (place, bit) in out.iter_mut().zip(ones(block.vertices)) {
-        *place = frame.place(Offset::of(hex_of(bit))).to_array();
+        *place = frame.place_at(centres[bit as usize]).to_array();
     }
     if block.moved & block.vertices != 0 {
         let subdivided = layout.grid.tiles().window(level, id, |t| t.subdivided);
@@ -87,9 +89,21 @@ impl Frame {
     /// what is rounded is the result.
     #[inline]
     fn place(&self, offset: Offset) -> DVec2 {
-        let v = offset.cartesian() * self.spacing;
+        self.place_at(offset.cartesian())
+    }
+
+    /// The same, in lattice steps.
+    #[inline]
+    fn place_at(&self, offset: DVec2) -> DVec2 {
+        let v = offset * self.spacing;
         DVec2::new(self.x.hi + (self.x.lo + v.x), self.y.hi + (self.y.lo + v.y))
     }
+}
+
+/// The centres of a tile's hexagons, from its first, in lattice steps.
+fn centres() -> &'static [DVec2; 64] {
+    static CENTRES: OnceLock<[DVec2; 64]> = OnceLock::new();
+    CENTRES.get_or_init(|| std::array::from_fn(|bit| Offset::of(hex_of(bit as u32)).cartesian()))
 }
 
 /// Occupants looked up at once: so few that what is found about them needs

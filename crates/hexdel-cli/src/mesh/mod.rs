@@ -5,6 +5,7 @@ mod points;
 
 use crate::exit::{Failure, Outcome, warn};
 use crate::outputs::{Content, Outputs};
+use crate::plot::{Colour, PictureArgs};
 use crate::sizing::size_of_file;
 use clap::ValueEnum;
 use hexdel::geom::BoundsError;
@@ -18,9 +19,13 @@ use std::time::Duration;
 /// at segments
 #[derive(clap::Args)]
 #[command(
+    mut_arg("colour", |arg| arg.hide(true)),
+    mut_arg("histogram", |arg| arg.hide(true)),
+    mut_arg("zoom", |arg| arg.hide(true)),
+    mut_arg("size", |arg| arg.hide(true)),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
-Input: .node .poly .csv .tsv .xyz .txt .pts   Output: .ele (with .node) .vtu .ron .svg
+Input: .node .poly .csv .tsv .xyz .txt .pts   Output: .ele (with .node) .vtu .ron .svg .png
 Examples:
   hexdel mesh cities.csv -o cities.ele -o cities.svg --grid
   hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
@@ -36,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, value_enum, hide_possible_values = true)]
     domain: Option<DomainName>,
     /// templates, simple or compact (fewest triangles)
-    #[arg(long, value_enum, default_value_t = MethodName::Templates, hide_possible_values = true)]
+    #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
     /// How hard compact tries: fast, standard or best
     #[arg(long, value_enum, default_value_t = EffortName::Standard, hide_possible_values = true)]
@@ -55,7 +60,7 @@ pub(crate) struct Args {
     max_area: Option<f64>,
     /// Longest edge, of a mesh of points
     #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
-    size: Option<f64>,
+    max_edge: Option<f64>,
     /// The same by place: a raster (.asc), or points with sizes (x y size)
     #[arg(long, value_name = "FILE")]
     size_file: Option<PathBuf>,
@@ -63,6 +68,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
     repair: Option<Option<f64>>,
+    /// How segments fit in: conform, or paper (keeps no bounds there)
+    #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true)]
+    pslg: Option<PslgName>,
     /// Circumradius of the hexagon around points [default: the least]
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
@@ -75,9 +83,11 @@ pub(crate) struct Args {
     /// Write the figures of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Show the hexagons in pictures
+    /// Show the hexagons in pictures; more of these: hexdel plot --help
     #[arg(long)]
     grid: bool,
+    #[command(flatten)]
+    picture: PictureArgs,
     /// Print nothing but warnings and errors
     #[arg(short, long)]
     quiet: bool,
@@ -89,6 +99,12 @@ enum DomainName {
     Hull,
     Box,
     Inside,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum PslgName {
+    Conform,
+    Paper,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -128,11 +144,18 @@ fn tolerance(text: &str) -> Result<f64, String> {
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
     let input = hexdel_io::read_points(&args.input)?;
-    if args.is_for_graphs(&input) {
-        graph::run(args, &outputs, &input)
-    } else {
-        points::run(args, &outputs, &input)
+    let for_graphs = args.is_for_graphs(&input);
+    if args.picture.colour.is_some_and(Colour::needs_hexagons) {
+        let of = match args.method() {
+            _ if for_graphs => Some("the mesh of a graph"),
+            Method::Compact => Some("the compact method"),
+            _ => None,
+        };
+        if let Some(of) = of {
+            return Err(Failure::NoHexagons { of: of.to_owned() });
+        }
     }
+    if for_graphs { graph::run(args, &outputs, &input) } else { points::run(args, &outputs, &input) }
 }
 
 fn outputs(args: &Args) -> Result<Outputs, Failure> {
@@ -159,7 +182,7 @@ impl Args {
         let none = Size::unlimited();
         let of_option = |source| Failure::Size { file: self.input.display().to_string(), source };
         let mut size = none.clone();
-        if let Some(h) = self.size {
+        if let Some(h) = self.max_edge {
             size = size.and_constant(h).map_err(of_option)?;
         }
         if let Some(path) = &self.size_file {

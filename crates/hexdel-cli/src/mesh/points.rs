@@ -3,9 +3,10 @@
 use super::{Args, limited, warn_ignored, write};
 use crate::exit::{Outcome, Verdict, print};
 use crate::outputs::Outputs;
+use crate::plot::Colour;
 use crate::progress::Progress;
 use hexdel::{Pslg, Size, Triangulation};
-use hexdel_io::{MeshView, Overlay, Picture};
+use hexdel_io::{ColourBy, MeshView, Overlay};
 use std::fmt::Write as _;
 
 /// Meshes points, writes the mesh and says what it is like.
@@ -30,8 +31,17 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
 
     let inputs = made.input_of_vertex();
     let overlay: Option<Overlay> = args.grid.then(|| made.overlay());
-    let mut picture = Picture::default();
+    let groups = match args.picture.colour {
+        Some(Colour::Level) => made.levels(),
+        Some(Colour::Class) => made.classes(),
+        _ => None,
+    };
+    let mut picture = args.picture.picture(made.certificate.bounds);
     picture.overlay = overlay.as_ref();
+    picture.fill_triangles = overlay.is_none() || args.picture.colour.is_some();
+    if let Some(groups) = &groups {
+        picture.colour_by = ColourBy::Groups(groups);
+    }
     let view = MeshView::new(&made.mesh)
         .with_input_indices(&inputs)
         .with_certificate(&made.certificate)

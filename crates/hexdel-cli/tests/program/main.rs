@@ -4,9 +4,11 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 mod check;
+mod convert;
 mod dual;
 mod generate;
 mod graph;
 mod mesh;
+mod plot;
 mod session;
 mod support;

@@ -311,16 +311,16 @@ impl LiveMesh {
         let (mark, serials) = (self.store.mark(), self.store.serials);
         self.forget_failures(slot);
         thin::thin(&mut self.store, &self.tools, slot, old.at);
-        self.thin_changed(mark);
+        self.thin_changed(mark, MOST_THINNINGS);
         if !verify::settle_changes(&mut self.store, mark, self.bounds) {
             self.reset(mark, serials);
         }
     }
 
     /// Removes vertices wherever something has changed since `mark`, for as long
-    /// as that succeeds.
-    fn thin_changed(&mut self, mark: usize) {
-        for _ in 0..MOST_THINNINGS {
+    /// as that succeeds, in so many rounds at most: each reaches farther.
+    fn thin_changed(&mut self, mark: usize, rounds: usize) {
+        for _ in 0..rounds {
             let before = self.store.counts();
             let written = Written::of(self.store.since(mark)).vertices;
             let slots: Vec<u32> = written.into_iter().map(|w| w.0).collect();

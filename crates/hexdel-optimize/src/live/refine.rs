@@ -51,9 +51,14 @@ fn cut_in_four(cut: &Cut, inner: &[bool]) -> Option<Mesh> {
     for &v in old.tri.iter().flat_map(|t| &t.v) {
         outside[v as usize] -= 1;
     }
-    let around = Around::default();
-    let vertices = Vertices { pos: built.pos, motion: built.motion, sector: built.sector, outside, around };
-    Mesh::build(vertices, &tris, &vec![0; tris.len()]).ok()
+    let vertices = Vertices {
+        pos: built.pos,
+        motion: built.motion,
+        sector: built.sector,
+        outside,
+        around: Around::default(),
+    };
+    Mesh::build(vertices, &tris, &[]).ok()
 }
 
 struct Builder {

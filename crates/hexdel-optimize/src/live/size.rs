@@ -97,7 +97,7 @@ impl LiveMesh {
             let long = self.too_long(mark, everywhere);
             let Some(&first) = long.first() else {
                 if round > 0 {
-                    self.thin_changed(mark);
+                    self.thin_changed(mark, 1);
                 }
                 return Ok(());
             };

@@ -90,7 +90,8 @@ pub(crate) struct Around {
 }
 
 impl Mesh {
-    /// Builds the mesh of `tris` with the sides `bound`.
+    /// Builds the mesh of `tris`; `bound` are the sides of each that must stay,
+    /// or empty if there are none.
     ///
     /// # Complexity
     ///
@@ -105,8 +106,9 @@ impl Mesh {
                 degree[v as usize] += 1;
             }
         }
+        let bound = bound.iter().copied().chain(std::iter::repeat(0));
         let tri =
-            tris.iter().zip(neighbours).zip(bound).map(|((&v, n), &bound)| Tri { v, n, bound }).collect();
+            tris.iter().zip(neighbours).zip(bound).map(|((&v, n), bound)| Tri { v, n, bound }).collect();
         let Around { source, near, lines } = around;
         let constrained = !source.is_empty();
         let journal = Vec::new();

@@ -233,7 +233,7 @@ fn evaluate(
         if limits.on_target(&m) {
             continue;
         }
-        let m = place.view(m);
+        let m = place.view(m, limits);
         solved &= limits.strict(&m);
         if !m.cross.is_finite() {
             energy = f64::INFINITY;

@@ -76,7 +76,7 @@ impl Patch {
             if limits.on_target(&m) {
                 continue;
             }
-            let m = place.view(m);
+            let m = place.view(m, limits);
             let (low, high) = limits.outside(&m);
             if let Some((k, g)) = low {
                 energy += self.push(t, k, g, limits.lower_turn());

@@ -210,6 +210,27 @@ fn letter_r() -> Pslg {
     pslg
 }
 
+/// A closed curve of `6 * 2^k` segments, at least `least`: a hexagon whose sides
+/// are divided again and again, each middle moved across by 5 to 15 per cent of
+/// the length. A side and all that comes of it stay in a rhombus whose angle at
+/// the ends is less than 36 degrees to either side; the curve does not cross
+/// itself.
+pub fn coastline(least: usize, seed: u64) -> Pslg {
+    let mut random = Random::new(seed);
+    let mut points: Vec<DVec2> = (0..6).map(|i| DVec2::from_angle(f64::from(i) * TAU / 6.0)).collect();
+    while points.len() < least {
+        let n = points.len();
+        points = (0..n)
+            .flat_map(|i| {
+                let (a, b) = (points[i], points[(i + 1) % n]);
+                let across = random.within(0.05, 0.15) * if random.below(2) == 0 { 1.0 } else { -1.0 };
+                [a, a.midpoint(b) + (b - a).perp() * across]
+            })
+            .collect();
+    }
+    chain(&points, true)
+}
+
 /// A small random graph: sometimes on a coarse grid, so that points coincide
 /// and segments overlap, touch and cross.
 pub fn random_graph(seed: u64) -> Pslg {

@@ -201,7 +201,7 @@ impl Session {
             }
         }
         let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
-        Ok(self.done(before, undo, None))
+        Ok(self.done(before, undo, self.size.clone()))
     }
 
     fn insert_one(&mut self, at: DVec2) -> Result<(), Refused> {
@@ -268,12 +268,13 @@ impl Session {
         }
         let mut undo = Vec::with_capacity(ids.len());
         for &id in ids {
-            let slot = self.points[id.0 as usize].take().expect("known to be there");
-            self.of_slot.remove(&slot);
-            undo.push((id, Some(slot)));
-            self.live.release(slot);
+            if let Some(slot) = self.points[id.0 as usize].take() {
+                self.of_slot.remove(&slot);
+                undo.push((id, Some(slot)));
+                self.live.release(slot);
+            }
         }
-        Ok(self.done(self.points.len(), undo, None))
+        Ok(self.done(self.points.len(), undo, self.size.clone()))
     }
 
     /// Wants edges to be as short as a size says, or as long as the points
@@ -295,7 +296,7 @@ impl Session {
         match self.live.set_sizing(sizing) {
             Ok(()) => {
                 let old = std::mem::replace(&mut self.size, size);
-                Ok(self.done(self.points.len(), Vec::new(), Some(old)))
+                Ok(self.done(self.points.len(), Vec::new(), old))
             }
             Err(LiveError::Unsized { at, length }) => {
                 self.live.abandon();
@@ -363,15 +364,10 @@ impl Session {
         Ok(Outcome { points: Vec::new(), delta, remeshed })
     }
 
-    /// Ends a call whose points come after `before`.
-    fn done(
-        &mut self,
-        before: usize,
-        points: Vec<(PointId, Option<u32>)>,
-        old_size: Option<Option<Size>>,
-    ) -> Outcome {
+    /// Ends a call whose points come after `before`; undoing it restores the
+    /// slots of `points` and the size.
+    fn done(&mut self, before: usize, points: Vec<(PointId, Option<u32>)>, size: Option<Size>) -> Outcome {
         let (step, delta) = self.live.take_step();
-        let size = old_size.unwrap_or_else(|| self.size.clone());
         self.push(Undo { mesh: Before::Step(step), points, size, radius: self.radius });
         let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
         Outcome { points, delta, remeshed: false }
