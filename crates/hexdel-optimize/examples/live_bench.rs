@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p hexdel-optimize --example live_bench -- POINTS CHANGES`
 
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
 mod support;
 
 use std::time::Instant;
@@ -13,7 +15,6 @@ use hexdel_optimize::{Effort, Options, optimize};
 use hexdel_refine::Start;
 use support::{Rule, points, start};
 
-#[allow(clippy::print_stdout, reason = "an example prints")]
 fn main() {
     let mut args = std::env::args().skip(1).map(|a| a.parse::<usize>().expect("a number"));
     let (n, changes) = (args.next().unwrap_or(1000), args.next().unwrap_or(100));

@@ -81,13 +81,6 @@ pub(crate) fn spots(soup: &Soup, bad: &[u32], rings: usize, round: usize) -> Cut
 /// set ascending, the sets by their first triangle.
 fn components(soup: &Soup, triangles: &[u32]) -> Vec<Vec<u32>> {
     let mut parent: Vec<u32> = (0..soup.pos.len() as u32).collect();
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
     for &t in triangles {
         let [a, b, c] = soup.tris[t as usize].map(|v| root(&mut parent, v));
         let least = a.min(b).min(c);
@@ -106,6 +99,15 @@ fn components(soup: &Soup, triangles: &[u32]) -> Vec<Vec<u32>> {
         sets[index[set] as usize].push(t);
     }
     sets
+}
+
+/// The first of the vertices that are known to hang together with `v`.
+fn root(parent: &mut [u32], mut v: u32) -> u32 {
+    while parent[v as usize] != v {
+        parent[v as usize] = parent[parent[v as usize] as usize];
+        v = parent[v as usize];
+    }
+    v
 }
 
 /// Halves a set of triangles until the parts are small.

@@ -226,10 +226,10 @@ impl<'a> Run<'a> {
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
         self.guard = self.sizing;
-        for i in from..to {
+        for (&pass, i) in PASSES[from..to].iter().zip(from..) {
             self.round(|work| {
                 repair::moves(work, i);
-                decimate(work, PASSES[i]);
+                decimate(work, pass);
             })?;
         }
         Ok(())

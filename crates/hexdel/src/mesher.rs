@@ -425,12 +425,11 @@ impl Mesher {
 
         let relocation = start.relocation();
         let domain = placement.domain(refiner.grid(), relocation)?;
-        let (mut dual, domain) = match &self.size {
-            Some(size) => Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?,
-            None => {
-                let occupants = refiner.occupants();
-                (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
-            }
+        let (mut dual, domain) = if let Some(size) = &self.size {
+            Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?
+        } else {
+            let occupants = refiner.occupants();
+            (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
         };
         let mut ended = Ended { reached: true, spent: false };
         if optimize {

@@ -1,10 +1,9 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
 use super::{Args, PslgName, limited, write};
-use crate::exit::{Outcome, Verdict, warn};
+use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
-use hexdel::geom::BoundsError;
 use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
 use hexdel_io::{MarkedEdge, MeshView, Picture};
 use std::fmt::{Display, Write as _};
@@ -79,7 +78,7 @@ impl Finished<'_> {
     }
 }
 
-fn mesher(args: &Args) -> Result<Mesher, BoundsError> {
+fn mesher(args: &Args) -> Result<Mesher, Failure> {
     let mut mesher = args.mesher();
     if args.min_angle.is_some() || args.max_angle.is_some() {
         let usual = AngleBounds::new(30.0, 90.0)?;
@@ -87,6 +86,9 @@ fn mesher(args: &Args) -> Result<Mesher, BoundsError> {
     }
     if let Some(domain) = args.domain() {
         mesher = mesher.domain(domain);
+    }
+    if let Some(size) = args.sizing()? {
+        mesher = mesher.size(size);
     }
     if let Some(area) = args.max_area {
         mesher = mesher.max_area(area);

@@ -7,9 +7,10 @@ use crate::exit::{Failure, Outcome, warn};
 use crate::input::{Formats, is_stream, read_graph};
 use crate::outputs::{Content, Outputs};
 use crate::plot::{Colour, PictureArgs};
+use crate::sizing::size_of_file;
 use clap::ValueEnum;
 use hexdel::geom::{BoundsError, Voronoi};
-use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg};
+use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg, Size};
 use hexdel_io::{MeshView, write_dual, write_mesh, write_mesh_to};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -58,8 +59,14 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     max_angle: Option<f64>,
     /// Largest area of a triangle
-    #[arg(long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(short = 'a', long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
     max_area: Option<f64>,
+    /// Longest edge, of a mesh of points
+    #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
+    max_edge: Option<f64>,
+    /// The same by place: a raster (.asc), or points with sizes (x y size)
+    #[arg(long, value_name = "FILE")]
+    size_file: Option<PathBuf>,
     /// Merge close points, split crossing segments [TOL: 1e-9 of the size]
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
@@ -176,7 +183,21 @@ impl Args {
     /// Whether the input, or what is asked for, takes more than points.
     fn is_for_graphs(&self, input: &Pslg) -> bool {
         let other_domain = self.domain.is_some_and(|d| !matches!(d, DomainName::Hexagon));
-        !input.segments.is_empty() || other_domain || self.max_area.is_some() || self.repair.is_some()
+        !input.segments.is_empty() || other_domain || self.repair.is_some()
+    }
+
+    /// How long edges may be, if anything says so.
+    fn sizing(&self) -> Result<Option<Size>, Failure> {
+        let none = Size::unlimited();
+        let of_option = |source| Failure::Size { file: self.input.display().to_string(), source };
+        let mut size = none.clone();
+        if let Some(h) = self.max_edge {
+            size = size.and_constant(h).map_err(of_option)?;
+        }
+        if let Some(path) = &self.size_file {
+            size = size_of_file(size, path)?;
+        }
+        Ok(Some(size).filter(|size| *size != none))
     }
 
     /// The options that points and graphs share.

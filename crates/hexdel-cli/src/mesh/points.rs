@@ -5,7 +5,7 @@ use crate::exit::{Outcome, Verdict};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
-use hexdel::{Pslg, Triangulation};
+use hexdel::{Pslg, Size, Triangulation};
 use hexdel_io::{ColourBy, MeshView, Overlay};
 use std::fmt::Write as _;
 
@@ -15,6 +15,14 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
     let mut mesher = args.mesher();
     if args.min_angle.is_some() || args.max_angle.is_some() {
         mesher = mesher.bounds(args.bounds(args.method().bounds())?);
+    }
+    let mut size = args.sizing()?;
+    if let Some(area) = args.max_area {
+        let by_area = Size::area(area).map_err(|e| args.failure(e.into()))?;
+        size = Some(size.unwrap_or_else(Size::unlimited).and(by_area));
+    }
+    if let Some(size) = size {
+        mesher = mesher.size(size);
     }
     let progress = Progress::new(args.quiet);
     let made = mesher.triangulate_watched(&input.points, &progress);

@@ -28,10 +28,10 @@ use std::path::{Path, PathBuf};
     size file FILE               .. of a raster (.asc) or of points with sizes\n  \
     size gradation G             growth per distance of all that follows\n  \
     refine X Y X Y K             halve the edges in a box K times\n  \
-    grow, undo                   double the domain; take the last change back\n  \
+    grow                         double the domain\n  \
     points, counts, certify      what there is\n  \
     mesh FILE, save FILE         write the mesh; the session, to be loaded\n  \
-    quit\n\n\
+    undo, quit                   take the last change back; end\n\n\
     An answer has \"ok\", and what changed by serial numbers or the \"error\"; after an error\n\
     the session is as it was. Exits with 2 if there was one.\n\n\
     Example:\n  \

@@ -10,6 +10,7 @@ mod generate;
 mod graph;
 mod mesh;
 mod plot;
+mod session;
 mod streams;
 mod support;
 mod triangle;

@@ -225,12 +225,12 @@ pub(crate) fn link(store: &mut Store, triangles: &[u32], outer: &[([u32; 2], u32
     for &t in triangles {
         let old = *store.triangle(t);
         let mut n = [NONE; 3];
-        for k in 0..3 {
+        for (k, n) in n.iter_mut().enumerate() {
             let (from, to) = (old.v[(k + 1) % 3], old.v[(k + 2) % 3]);
             if let Some(u) = find(&sides, [to, from]) {
-                n[k] = u;
+                *n = u;
             } else if let Some(u) = find(outer, [from, to]) {
-                n[k] = u;
+                *n = u;
                 let mut beyond = *store.triangle(u);
                 let j = (0..3).find(|&j| beyond.v[(j + 1) % 3] == to && beyond.v[(j + 2) % 3] == from);
                 beyond.n[j.expect("neighbours share a side")] = t;

@@ -95,7 +95,8 @@ pub(crate) fn insert<'a>(
             work.mesh.rollback();
             continue;
         };
-        if settle(&mut work, &verts, SETTLE) {
+        // Where nothing may move, a patch is settled as it stands.
+        if settle(&mut work, &verts, SETTLE) && work.bad().is_empty() {
             work.commit();
             return Some((work, vertex));
         }

@@ -139,6 +139,10 @@ pub struct LiveMesh {
 /// move, the last one stays.
 const RINGS: usize = 5;
 
+/// Rounds of removals after one change, at most: each coarsens by half what is
+/// too fine.
+const MOST_THINNINGS: usize = 16;
+
 /// Sine of the turn up to which a rim goes straight on, as for a whole outline.
 const STRAIGHT: f64 = 1e-3;
 
@@ -305,9 +309,38 @@ impl LiveMesh {
         };
         self.store.write_vertex(slot, Vertex { motion, sector, failed: 0, ..old });
         let (mark, serials) = (self.store.mark(), self.store.serials);
+        self.forget_failures(slot);
         thin::thin(&mut self.store, &self.tools, slot, old.at);
+        self.thin_changed(mark, MOST_THINNINGS);
         if !verify::settle_changes(&mut self.store, mark, self.bounds) {
             self.reset(mark, serials);
+        }
+    }
+
+    /// Removes vertices wherever something has changed since `mark`, for as long
+    /// as that succeeds, in so many rounds at most: each reaches farther.
+    fn thin_changed(&mut self, mark: usize, rounds: usize) {
+        for _ in 0..rounds {
+            let before = self.store.counts();
+            let written = Written::of(self.store.since(mark)).vertices;
+            let slots: Vec<u32> = written.into_iter().map(|w| w.0).collect();
+            thin::thin_all(&mut self.store, &self.tools, &slots);
+            if self.store.counts() == before {
+                break;
+            }
+        }
+    }
+
+    /// Removals around a vertex that have failed may succeed now that it is
+    /// free.
+    fn forget_failures(&mut self, slot: u32) {
+        let mut seeds = Vec::new();
+        self.store.around(slot, |t| seeds.push(t));
+        for t in rings(&self.store, &seeds, RINGS - 1) {
+            for v in self.store.triangle(t).v {
+                let old = *self.store.vertex(v);
+                self.store.write_vertex(v, Vertex { failed: 0, ..old });
+            }
         }
     }
 

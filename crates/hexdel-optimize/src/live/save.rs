@@ -180,8 +180,8 @@ fn check_mesh(state: &LiveState) -> Result<(), StateError> {
         let VertexState(_, _, _, sector, anchor, _) = state.vertices[slot].expect("listed as live");
         let anchored = state.triangles.get(anchor as usize).copied().flatten();
         let holds = anchored.is_some_and(|(_, v)| v.contains(&(slot as u32)));
-        // A sector that is no number compares as false.
-        if !holds || !((sector - soup.sector[i]).abs() <= SECTOR_TOLERANCE) {
+        let off = (sector - soup.sector[i]).abs();
+        if !holds || off.is_nan() || off > SECTOR_TOLERANCE {
             return Err(StateError::Slot { what: "vertex", slot });
         }
     }

@@ -97,9 +97,7 @@ impl LiveMesh {
             let long = self.too_long(mark, everywhere);
             let Some(&first) = long.first() else {
                 if round > 0 {
-                    let changed = Written::of(self.store.since(mark)).vertices;
-                    let slots: Vec<u32> = changed.into_iter().map(|w| w.0).collect();
-                    thin::thin_all(&mut self.store, &self.tools, &slots);
+                    self.thin_changed(mark, 1);
                 }
                 return Ok(());
             };

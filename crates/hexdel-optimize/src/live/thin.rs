@@ -24,12 +24,20 @@ const MOST_PARTS: usize = 24;
 /// Rings around a change within which vertices are removed.
 const RINGS: usize = 5;
 
+/// The same where many vertices next to each other have changed: each has its
+/// own turn.
+const RINGS_OF_MANY: usize = 3;
+
 /// Removes vertices around the vertex `at`, which was changed at `p`.
-pub(crate) fn thin(store: &mut Store, tools: &Tools, mut at: u32, p: DVec2) {
+pub(crate) fn thin(store: &mut Store, tools: &Tools, at: u32, p: DVec2) {
+    thin_rings(store, tools, at, p, RINGS);
+}
+
+fn thin_rings(store: &mut Store, tools: &Tools, mut at: u32, p: DVec2, size: usize) {
     for _ in 0..MOST_PARTS {
         let mut seeds = Vec::new();
         store.around(at, |t| seeds.push(t));
-        let cut = Cut::new(store, rings(store, &seeds, RINGS));
+        let cut = Cut::new(store, rings(store, &seeds, size));
         let mut work = tools.work(cut.mesh.clone(), cut.failed.clone());
         let removed: usize = PASSES.into_iter().map(|pass| decimate(&mut work, pass)).sum();
         cut.put_back(store, &work.mesh, &work.failed);
@@ -46,9 +54,10 @@ pub(crate) fn thin(store: &mut Store, tools: &Tools, mut at: u32, p: DVec2) {
 /// cleared, among the slots given.
 pub(crate) fn thin_all(store: &mut Store, tools: &Tools, slots: &[u32]) {
     for &v in slots {
-        let waits = |v: &Vertex| v.alive() && v.failed == 0 && matches!(v.motion, Motion::Free);
+        let waits =
+            |v: &Vertex| v.alive() && v.failed == 0 && matches!(v.motion, Motion::Free | Motion::Along(_));
         if store.vertices.get(v as usize).is_some_and(waits) {
-            thin(store, tools, v, store.at(v));
+            thin_rings(store, tools, v, store.at(v), RINGS_OF_MANY);
         }
     }
 }

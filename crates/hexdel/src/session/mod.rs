@@ -7,50 +7,22 @@
 //! suffice. `docs/sessions.md` explains the whole.
 
 mod error;
+mod outcome;
+mod remesh;
 mod saved;
 
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
-use crate::triangulation::Triangulation;
 use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
-use hexdel_optimize::live::{Delta, LiveError, LiveMesh, Step};
-use hexdel_optimize::{Effort, Sizing, VertexKind, kinds_of};
+use hexdel_optimize::live::{LiveError, LiveMesh, Step};
+use hexdel_optimize::{Effort, Sizing, kinds_of};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 pub use error::SessionError;
-
-/// A point of a session: they are counted from 0 as they come, and no number
-/// is used twice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PointId(pub u64);
-
-/// What a call did.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Outcome {
-    /// The points put in, in the order given.
-    pub points: Vec<PointId>,
-    /// What became of the mesh.
-    pub delta: Delta,
-    /// Whether the whole was meshed anew.
-    pub remeshed: bool,
-}
-
-/// A mesh as it stands.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct SessionMesh {
-    /// Vertices and counter-clockwise triangles.
-    pub mesh: TriMesh,
-    /// The serial number of each vertex.
-    pub vertex_serials: Vec<u64>,
-    /// The serial number of each triangle.
-    pub triangle_serials: Vec<u64>,
-    /// The points and their vertices.
-    pub points: Vec<(PointId, VertexId)>,
-}
+pub use outcome::{Outcome, PointId, SessionMesh};
+use remesh::kinds;
 
 /// Calls that can be undone.
 const UNDO: usize = 256;
@@ -229,7 +201,7 @@ impl Session {
             }
         }
         let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
-        Ok(self.done(before, undo, None))
+        Ok(self.done(before, undo, self.size.clone()))
     }
 
     fn insert_one(&mut self, at: DVec2) -> Result<(), Refused> {
@@ -276,84 +248,6 @@ impl Session {
         }
     }
 
-    /// Meshes all points anew, with more.
-    fn insert_by_remeshing(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
-        let (ids, mut all) = self.present();
-        for &at in points {
-            if !at.is_finite() {
-                return Err(SessionError::NotFinite { at });
-            }
-        }
-        all.extend_from_slice(points);
-        let first = self.points.len() as u64;
-        let ids = ids.into_iter().chain((first..).map(PointId).take(points.len())).collect();
-        self.remesh(ids, &all, self.radius, self.size.clone())
-    }
-
-    /// Points and their places.
-    fn present(&self) -> (Vec<PointId>, Vec<DVec2>) {
-        self.points().unzip()
-    }
-
-    /// Meshes points anew: those that are there and new ones.
-    fn remesh(
-        &mut self,
-        ids: Vec<PointId>,
-        points: &[DVec2],
-        radius: f64,
-        size: Option<Size>,
-    ) -> Result<Outcome, SessionError> {
-        let before = self.points.len();
-        let mesher = Mesher::new().method(Method::Compact).effort(self.effort).bounds(self.bounds);
-        let mesher = mesher.around(self.centre, radius);
-        let mesher = size.iter().fold(mesher, |m, s| m.size(s.clone()));
-        if points.is_empty() {
-            let mut anew = Self::empty(self.centre, radius)?;
-            anew.bounds = self.bounds;
-            anew.set_size(size)?;
-            return Ok(self.replace(anew.live, Vec::new(), radius, anew.size));
-        }
-        let made = mesher.triangulate(points)?;
-        let inputs = made.input_of_vertex();
-        for (i, v) in made.vertex_of_input.iter().enumerate() {
-            if let Some(first) = inputs[v.index()].filter(|&first| first as usize != i) {
-                return Err(SessionError::Duplicate { at: points[i], of: ids[first as usize] });
-            }
-        }
-        let kinds = kinds(&made);
-        let slots = ids.into_iter().zip(made.vertex_of_input.iter().map(|v| v.index() as u32)).collect();
-        let mut live = LiveMesh::new(made.mesh, &kinds, self.bounds).map_err(crate::Error::Optimize)?;
-        live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
-        debug_assert_eq!(before, self.points.len());
-        Ok(self.replace(live, slots, radius, size))
-    }
-
-    /// Puts another mesh of points in the place of this one.
-    fn replace(
-        &mut self,
-        live: LiveMesh,
-        slots: Vec<(PointId, u32)>,
-        radius: f64,
-        size: Option<Size>,
-    ) -> Outcome {
-        let before = self.points.len();
-        let (old, delta) = self.live.replace_by(live);
-        let mut points: Vec<Option<u32>> = vec![None; before];
-        for &(id, slot) in &slots {
-            let i = id.0 as usize;
-            points.resize(points.len().max(i + 1), None);
-            points[i] = Some(slot);
-        }
-        let olds = self.points.iter().copied().chain(std::iter::repeat(None));
-        let undo = olds.take(points.len()).enumerate().map(|(i, s)| (PointId(i as u64), s)).collect();
-        self.points = points;
-        self.of_slot = slots.into_iter().map(|(id, slot)| (slot, id)).collect();
-        let olds = (std::mem::replace(&mut self.size, size), std::mem::replace(&mut self.radius, radius));
-        self.push(Undo { mesh: Before::Whole(Box::new(old)), points: undo, size: olds.0, radius: olds.1 });
-        let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
-        Outcome { points, delta, remeshed: true }
-    }
-
     /// Takes points out, all or none. Vertices that become superfluous go with
     /// them.
     ///
@@ -374,12 +268,13 @@ impl Session {
         }
         let mut undo = Vec::with_capacity(ids.len());
         for &id in ids {
-            let slot = self.points[id.0 as usize].take().expect("known to be there");
-            self.of_slot.remove(&slot);
-            undo.push((id, Some(slot)));
-            self.live.release(slot);
+            if let Some(slot) = self.points[id.0 as usize].take() {
+                self.of_slot.remove(&slot);
+                undo.push((id, Some(slot)));
+                self.live.release(slot);
+            }
         }
-        Ok(self.done(self.points.len(), undo, None))
+        Ok(self.done(self.points.len(), undo, self.size.clone()))
     }
 
     /// Wants edges to be as short as a size says, or as long as the points
@@ -401,7 +296,7 @@ impl Session {
         match self.live.set_sizing(sizing) {
             Ok(()) => {
                 let old = std::mem::replace(&mut self.size, size);
-                Ok(self.done(self.points.len(), Vec::new(), Some(old)))
+                Ok(self.done(self.points.len(), Vec::new(), old))
             }
             Err(LiveError::Unsized { at, length }) => {
                 self.live.abandon();
@@ -469,15 +364,10 @@ impl Session {
         Ok(Outcome { points: Vec::new(), delta, remeshed })
     }
 
-    /// Ends a call whose points come after `before`.
-    fn done(
-        &mut self,
-        before: usize,
-        points: Vec<(PointId, Option<u32>)>,
-        old_size: Option<Option<Size>>,
-    ) -> Outcome {
+    /// Ends a call whose points come after `before`; undoing it restores the
+    /// slots of `points` and the size.
+    fn done(&mut self, before: usize, points: Vec<(PointId, Option<u32>)>, size: Option<Size>) -> Outcome {
         let (step, delta) = self.live.take_step();
-        let size = old_size.unwrap_or_else(|| self.size.clone());
         self.push(Undo { mesh: Before::Step(step), points, size, radius: self.radius });
         let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
         Outcome { points, delta, remeshed: false }
@@ -554,13 +444,4 @@ impl From<SessionError> for Refused {
     fn from(error: SessionError) -> Self {
         Self::Error(error)
     }
-}
-
-/// What the vertices of a mesh may do.
-fn kinds(made: &Triangulation) -> Vec<VertexKind> {
-    let mut fixed = vec![false; made.mesh.vertices.len()];
-    for v in &made.vertex_of_input {
-        fixed[v.index()] = true;
-    }
-    kinds_of(&made.mesh, |v| fixed[v.index()])
 }

@@ -1,0 +1,95 @@
+//! Commands from a pipe, sizes from options and files.
+
+use crate::support::Bench;
+use serde_json::Value;
+use std::io::Write;
+use std::process::Stdio;
+
+/// Gives commands to a session; its answers and its exit code.
+fn talk(bench: &Bench, arguments: &str, commands: &str) -> (Vec<Value>, i32) {
+    let mut command = bench.command(arguments);
+    let mut child =
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(commands.as_bytes()).unwrap();
+    let done = child.wait_with_output().unwrap();
+    let text = String::from_utf8(done.stdout).unwrap();
+    (text.lines().map(|l| serde_json::from_str(l).unwrap()).collect(), done.status.code().unwrap())
+}
+
+#[test]
+fn each_command_has_an_answer() {
+    let bench = Bench::new();
+    let (answers, code) = talk(
+        &bench,
+        "session",
+        "# a session\ndomain 0 0 1\n\ninsert .1 .2 .3 .1\nsize box 0 0 .2 .2 .05\nmesh m.vtu\ncertify\n\
+         remove 0\nundo\npoints\nsave s.ron\nquit\ninsert 0 0\n",
+    );
+    assert_eq!((answers.len(), code), (9, 0), "{answers:?}");
+    assert!(answers.iter().all(|a| a["ok"] == true));
+    assert_eq!(answers[1]["points_inserted"], serde_json::json!([0, 1]));
+    let added = answers[1]["delta"]["triangles_added"].as_array().unwrap().len();
+    assert_eq!(answers[1]["triangles"], added);
+    assert_eq!(answers[4]["holds"], true);
+    assert_eq!(answers[7]["points"], serde_json::json!([[0, 0.1, 0.2], [1, 0.3, 0.1]]));
+    bench.run("check m.vtu").fine();
+
+    let (answers, code) = talk(&bench, "session --brief", "load s.ron\ninsert .5 .5\nsave t.ron\n");
+    assert_eq!((answers.len(), code), (3, 0), "{answers:?}");
+    assert_eq!(answers[1]["points_inserted"], serde_json::json!([2]));
+    assert!(answers[1]["delta"]["triangles_added"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn a_bad_command_is_answered_and_changes_nothing() {
+    let bench = Bench::new();
+    bench.file("points.csv", "0,0\n1,0\n0,1\n");
+    bench.file("bad.ron", "(version:1)");
+    let bad = [
+        "insert 1",
+        "insert 9 9",
+        "insert 0 0",
+        "remove 7",
+        "size -1",
+        "size box 0 0 1 1 0",
+        "size file none.asc",
+        "mesh",
+        "mesh m.foo",
+        "load bad.ron",
+        "load none.ron",
+        "open none.csv",
+        "domain 0 0 -1",
+        "undo",
+        "fly",
+    ];
+    let (first, code) = talk(&bench, "session", "insert 0 0\n");
+    assert_eq!((first[0]["ok"].as_bool(), code), (Some(false), 2));
+    let script = format!("open points.csv\nsave before.ron\n{}\nsave after.ron\n", bad.join("\n"));
+    let (answers, code) = talk(&bench, "session", &script);
+    assert_eq!((answers.len(), code), (bad.len() + 3, 2));
+    for (line, answer) in bad.iter().zip(&answers[2..]) {
+        assert_eq!(answer["ok"], false, "{line}");
+        assert!(answer["error"].as_str().is_some_and(|e| !e.is_empty()), "{line}");
+    }
+    assert_eq!(bench.read("before.ron"), bench.read("after.ron"));
+}
+
+#[test]
+fn edges_are_as_short_as_options_and_files_want() {
+    let bench = Bench::new();
+    bench.file("points.csv", "0,0\n1,0\n0,1\n");
+    bench.file("sizes.txt", "# x y size\n.5 .5 .02\n");
+    bench.file("sizes.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n.1 .3\n");
+    for options in
+        ["--max-edge .1", "--size-file sizes.txt", "--size-file sizes.asc --max-edge .2", "--max-area .01"]
+    {
+        bench.run(&format!("mesh points.csv --report r.json -q {options}")).fine();
+        let report = bench.json("r.json");
+        assert!(report["size_ratio"].as_f64().is_some_and(|r| r <= 1.0 + 1e-9), "{options}: {report}");
+    }
+    bench.run("mesh points.csv --report r.json --max-edge 0").refused("positive");
+    bench.run("mesh points.csv --report r.json --max-edge 1e-14").refused("resolve");
+    bench.run("mesh points.csv --report r.json --size-file none.asc").refused("none.asc");
+    bench.file("sizes.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n.1 0\n");
+    bench.run("mesh points.csv --report r.json --size-file sizes.asc").refused("row 0 and column 1");
+}

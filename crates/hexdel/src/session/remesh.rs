@@ -1,0 +1,99 @@
+//! All points meshed anew, where changes nearby do not suffice.
+
+use super::{Before, Outcome, PointId, Session, SessionError, Undo};
+use crate::mesher::{Mesher, Method};
+use crate::size::Size;
+use crate::triangulation::Triangulation;
+use hexdel_geom::DVec2;
+use hexdel_optimize::live::LiveMesh;
+use hexdel_optimize::{Sizing, VertexKind, kinds_of};
+use std::sync::Arc;
+
+impl Session {
+    /// Meshes all points anew, with more.
+    pub(super) fn insert_by_remeshing(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
+        let (ids, mut all) = self.present();
+        for &at in points {
+            if !at.is_finite() {
+                return Err(SessionError::NotFinite { at });
+            }
+        }
+        all.extend_from_slice(points);
+        let first = self.points.len() as u64;
+        let ids = ids.into_iter().chain((first..).map(PointId).take(points.len())).collect();
+        self.remesh(ids, &all, self.radius, self.size.clone())
+    }
+
+    /// Points and their places.
+    pub(super) fn present(&self) -> (Vec<PointId>, Vec<DVec2>) {
+        self.points().unzip()
+    }
+
+    /// Meshes points anew: those that are there and new ones.
+    pub(super) fn remesh(
+        &mut self,
+        ids: Vec<PointId>,
+        points: &[DVec2],
+        radius: f64,
+        size: Option<Size>,
+    ) -> Result<Outcome, SessionError> {
+        let before = self.points.len();
+        let mesher = Mesher::new().method(Method::Compact).effort(self.effort).bounds(self.bounds);
+        let mesher = mesher.around(self.centre, radius);
+        let mesher = size.iter().fold(mesher, |m, s| m.size(s.clone()));
+        if points.is_empty() {
+            let mut anew = Self::empty(self.centre, radius)?;
+            anew.bounds = self.bounds;
+            anew.set_size(size)?;
+            return Ok(self.replace(anew.live, Vec::new(), radius, anew.size));
+        }
+        let made = mesher.triangulate(points)?;
+        let inputs = made.input_of_vertex();
+        for (i, v) in made.vertex_of_input.iter().enumerate() {
+            if let Some(first) = inputs[v.index()].filter(|&first| first as usize != i) {
+                return Err(SessionError::Duplicate { at: points[i], of: ids[first as usize] });
+            }
+        }
+        let kinds = kinds(&made);
+        let slots = ids.into_iter().zip(made.vertex_of_input.iter().map(|v| v.index() as u32)).collect();
+        let mut live = LiveMesh::new(made.mesh, &kinds, self.bounds).map_err(crate::Error::Optimize)?;
+        live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
+        debug_assert_eq!(before, self.points.len());
+        Ok(self.replace(live, slots, radius, size))
+    }
+
+    /// Puts another mesh of points in the place of this one.
+    fn replace(
+        &mut self,
+        live: LiveMesh,
+        slots: Vec<(PointId, u32)>,
+        radius: f64,
+        size: Option<Size>,
+    ) -> Outcome {
+        let before = self.points.len();
+        let (old, delta) = self.live.replace_by(live);
+        let mut points: Vec<Option<u32>> = vec![None; before];
+        for &(id, slot) in &slots {
+            let i = id.0 as usize;
+            points.resize(points.len().max(i + 1), None);
+            points[i] = Some(slot);
+        }
+        let olds = self.points.iter().copied().chain(std::iter::repeat(None));
+        let undo = olds.take(points.len()).enumerate().map(|(i, s)| (PointId(i as u64), s)).collect();
+        self.points = points;
+        self.of_slot = slots.into_iter().map(|(id, slot)| (slot, id)).collect();
+        let olds = (std::mem::replace(&mut self.size, size), std::mem::replace(&mut self.radius, radius));
+        self.push(Undo { mesh: Before::Whole(Box::new(old)), points: undo, size: olds.0, radius: olds.1 });
+        let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
+        Outcome { points, delta, remeshed: true }
+    }
+}
+
+/// What the vertices of a mesh may do.
+pub(super) fn kinds(made: &Triangulation) -> Vec<VertexKind> {
+    let mut fixed = vec![false; made.mesh.vertices.len()];
+    for v in &made.vertex_of_input {
+        fixed[v.index()] = true;
+    }
+    kinds_of(&made.mesh, |v| fixed[v.index()])
+}
