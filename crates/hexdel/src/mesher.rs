@@ -263,10 +263,11 @@ impl Mesher {
     /// 5.3): a tenth fewer triangles. On by default; always, for graphs.
     ///
     /// ```
-    /// # use hexdel::{DVec2, Mesher, generate};
+    /// # use hexdel::{DVec2, Mesher, Method, generate};
     /// let points = generate::generate(generate::Kind::Uniform, 50, 1);
-    /// let fine = Mesher::new().coarsening(false).triangulate(&points)?;
-    /// let coarse = Mesher::new().triangulate(&points)?;
+    /// let templates = Mesher::new().method(Method::Templates);
+    /// let fine = templates.clone().coarsening(false).triangulate(&points)?;
+    /// let coarse = templates.triangulate(&points)?;
     /// assert!(coarse.mesh.triangles.len() < fine.mesh.triangles.len());
     /// # Ok::<(), hexdel::Error>(())
     /// ```
