@@ -21,6 +21,7 @@ pub(crate) use graph::Finished;
 /// Mesh points, or segments: angles of 43.9 to 90 degrees, at segments 30 to 90
 #[derive(clap::Args)]
 #[command(
+    mut_arg("input_format", |arg| arg.hide(true)),
     mut_arg("colour", |arg| arg.hide(true)),
     mut_arg("histogram", |arg| arg.hide(true)),
     mut_arg("zoom", |arg| arg.hide(true)),
