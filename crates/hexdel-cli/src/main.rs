@@ -45,7 +45,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Mesh(mesh::Args),
+    Mesh(Box<mesh::Args>),
     Triangle(triangle::Args),
     Check(check::Args),
     Plot(plot::Args),

@@ -2,7 +2,7 @@
 
 use crate::mesher::{Method, Start};
 use hexdel_classify::Domain;
-use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId};
+use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, Voronoi, VoronoiSummary};
 use hexdel_refine::Refiner;
 use serde::Serialize;
 
@@ -72,6 +72,8 @@ pub struct Report<'a> {
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
+    /// What its Voronoi dual is like.
+    pub dual: Option<VoronoiSummary>,
     /// The longest edge over the length wanted there, if any was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size_ratio: Option<f64>,
@@ -84,7 +86,11 @@ pub struct Report<'a> {
 }
 
 impl Triangulation {
-    /// The figures of this mesh.
+    /// The figures of this mesh, those of its Voronoi dual among them.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the size of the mesh.
     ///
     /// ```
     /// # use hexdel::DVec2;
@@ -107,6 +113,7 @@ impl Triangulation {
             },
             budget_spent: self.budget_spent,
             certificate: &self.certificate,
+            dual: Voronoi::new(&self.mesh).ok().map(|dual| dual.summary()),
             size_ratio: self.size_ratio,
             max_level: self.max_level,
             domain_radius: self.patch.radius,

@@ -21,6 +21,7 @@ pub(crate) use graph::Finished;
 /// Mesh points, or segments: angles of 43.9 to 90 degrees, at segments 30 to 90
 #[derive(clap::Args)]
 #[command(
+    mut_arg("format", |arg| arg.hide(true)),
     mut_arg("input_format", |arg| arg.hide(true)),
     mut_arg("colour", |arg| arg.hide(true)),
     mut_arg("histogram", |arg| arg.hide(true)),
@@ -28,7 +29,7 @@ pub(crate) use graph::Finished;
     mut_arg("size", |arg| arg.hide(true)),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
-Input: .node .poly .csv .tsv .xyz .txt .geojson .wkt .json .ron
+Input: .node .poly .csv .tsv .xyz .txt .geojson .wkt .json .ron, - with --format
 Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ron .svg .png
 Examples:
   hexdel mesh cities.csv -o cities.ele -o cities.svg --grid
@@ -39,8 +40,11 @@ pub(crate) struct Args {
     #[arg(hide = true)]
     input: PathBuf,
     /// File to write; may be given several times
-    #[arg(short, long, value_name = "FILE", required_unless_present = "report")]
+    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["report", "dual"])]
     output: Vec<PathBuf>,
+    /// File for the Voronoi dual: .vtu, or .v.node with .v.edge
+    #[arg(long, value_name = "FILE")]
+    dual: Option<PathBuf>,
     /// hexagon, hull, box or inside [default: inside of segments, or hexagon]
     #[arg(long, value_enum, hide_possible_values = true)]
     domain: Option<DomainName>,
@@ -173,6 +177,9 @@ fn outputs(args: &Args) -> Result<Outputs, Failure> {
         } else {
             outputs.add_mesh(path)?;
         }
+    }
+    if let Some(path) = &args.dual {
+        outputs.add_dual(path)?;
     }
     if let Some(path) = &args.report {
         outputs.add_text(path)?;

@@ -2,7 +2,7 @@
 
 use super::result::PslgTriangulation;
 use crate::triangulation::Seconds;
-use hexdel_geom::{Certificate, DVec2, Pslg};
+use hexdel_geom::{Certificate, DVec2, Pslg, Voronoi, VoronoiSummary};
 use hexdel_pslg::{Exception, Reason, Repair, SegmentMethod};
 use serde::Serialize;
 
@@ -22,6 +22,9 @@ pub struct PslgReport<'a> {
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
+    /// What its Voronoi dual is like; nothing if the mesh touches itself in a
+    /// point.
+    pub dual: Option<VoronoiSummary>,
     /// How many segments there are.
     pub segments: usize,
     /// How many edges they consist of.
@@ -94,6 +97,7 @@ impl<'a> PslgReport<'a> {
             domain: made.domain.name(),
             holds: made.holds(),
             certificate: &made.certificate,
+            dual: Voronoi::new(&made.mesh).ok().map(|dual| dual.summary()),
             segments: made.graph.segments.len(),
             segment_edges: made.edges_of_segment.iter().sum(),
             edges_of_segment: &made.edges_of_segment,
