@@ -13,9 +13,9 @@ use crate::double_double::Double;
 ///
 /// ```
 /// use hexdel_geom::{DVec2, point_on_segment};
-/// let (a, b) = (DVec2::new(0.1, 0.0), DVec2::new(0.7, 1.0));
+/// let (a, b) = (DVec2::new(0.25, 0.0), DVec2::new(0.75, 1.0));
 /// assert_eq!(point_on_segment(a, b, 1.0), b);
-/// assert_eq!(point_on_segment(a, b, 0.5), DVec2::new(0.4, 0.5));
+/// assert_eq!(point_on_segment(a, b, 0.5), DVec2::new(0.5, 0.5));
 /// ```
 pub fn point_on_segment(a: DVec2, b: DVec2, t: f64) -> DVec2 {
     // From the nearer end, so that the rounding of `t` matters less.
