@@ -45,8 +45,21 @@ pub(crate) enum Failure {
     ReplacesInput { file: PathBuf },
     #[error("{}: two outputs of the same name", file.display())]
     Twice { file: PathBuf },
+    /// What was read is nothing that the format of the output holds.
+    #[error("{file}: holds {found}, which {format} does not")]
+    #[diagnostic(help("a mesh goes to a format of meshes, points to one of points"))]
+    Conversion { file: String, found: &'static str, format: String },
+    #[error("standard {stream} has no extension to tell its format")]
+    #[diagnostic(help("name it with --format, or --input-format"))]
+    NoFormat { stream: &'static str },
     #[error("standard output: {0}")]
     Stdout(io::Error),
+    #[error("standard input: {0}")]
+    Stdin(io::Error),
+    #[error("{file}: {source}")]
+    Size { file: String, source: hexdel::SizeError },
+    #[error("{failed} commands failed")]
+    Commands { failed: usize },
     #[error("no JSON of the figures: {0}")]
     Json(#[from] serde_json::Error),
 }

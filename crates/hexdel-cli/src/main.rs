@@ -1,18 +1,22 @@
 //! The program `hexdel`: meshes files of points and segments, checks meshes, makes test
 //! points.
 //!
-//! One module per command ([`mesh`], [`check`], [`dual`], [`generate`]), and what they
+//! One module per command ([`mesh`], [`check`], [`convert`], [`dual`],
+//! [`generate`], [`session`]), and what they
 //! share: which files are written and when ([`outputs`]), the bar on a terminal
 //! ([`progress`]), errors and exit codes ([`exit`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
 mod check;
+mod convert;
 mod dual;
 mod exit;
 mod generate;
 mod mesh;
 mod outputs;
 mod progress;
+mod session;
+mod sizing;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -37,16 +41,20 @@ struct Cli {
 enum Command {
     Mesh(mesh::Args),
     Check(check::Args),
+    Convert(convert::Args),
     Dual(dual::Args),
     Generate(generate::Args),
+    Session(session::Args),
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Dual(args) => dual::run(&args),
         Command::Generate(args) => generate::run(&args),
+        Command::Session(args) => session::run(&args),
     };
     exit::finish(outcome)
 }

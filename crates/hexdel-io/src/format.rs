@@ -200,7 +200,7 @@ fn name_of<F: Copy + PartialEq>(names: Names<F>, format: F) -> &'static str {
 }
 
 fn extension(path: &Path) -> Option<String> {
-    path.extension()?.to_str().map(str::to_owned)
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
 #[cfg(test)]

@@ -31,7 +31,7 @@
 //! [`read_mesh_data`] and [`write_mesh`], streams through [`read_points_from`],
 //! [`write_points_to`], [`read_mesh_from`] and [`write_mesh_to`] with the format named.
 //!
-//! [`read_raster`] reads rasters (`.asc`).
+//! [`read_raster`] reads rasters (`.asc`), [`read_sizes`] tables of points with sizes.
 //!
 //! Readers trust nothing: every malformed file is a [`ReadError`] with file and
 //! line, and memory grows with what a file holds, not with what it claims. Lines
@@ -64,6 +64,7 @@ mod off;
 mod picture;
 mod read;
 mod shapes;
+mod sizes;
 mod svg;
 mod table;
 mod tags;
@@ -85,6 +86,9 @@ pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use picture::{Overlay, OverlayClass, Picture, Polygon, Rgb};
-pub use read::{read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from};
+pub use read::{
+    holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from,
+};
+pub use sizes::{parse_sizes, read_sizes};
 pub use view::{MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_to, write_points, write_points_to};

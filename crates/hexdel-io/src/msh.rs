@@ -6,8 +6,7 @@
 //! other sections are left. Nodes and elements may be numbered in any way; vertices
 //! are in the order of the file, edges and triangles in the order of their numbers.
 //!
-//! The crate `mshio` reads version 4.1 only, needs the whole file in memory, and trusts
-//! the counts in headers.
+//! The crate `mshio` reads version 4.1 only, from a slice of the whole file.
 
 use std::collections::HashMap;
 use std::io::BufRead;

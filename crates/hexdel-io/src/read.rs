@@ -5,11 +5,13 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use hexdel_geom::{Pslg, TriMesh};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::format::{MeshFormat, PointFormat};
-use crate::json::{Source, slurp};
+use crate::json::{Source, parse, slurp};
 use crate::triangle::PointRange;
 use crate::{
     geojson, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh, obj, off, table, triangle, vtu_in, wkt,
@@ -153,6 +155,32 @@ pub fn read_mesh_from(reader: impl BufRead, format: MeshFormat, name: &str) -> R
             Err(ReadError::WriteOnly { file: name.to_owned(), format: format.name() })
         }
     }
+}
+
+/// Whether a text of JSON or RON is that of a mesh, with `triangles`, rather than of a
+/// graph. What it is like otherwise is left to the readers.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_io::{MeshFormat, holds_mesh};
+///
+/// assert!(holds_mesh(br#"{"triangles": [], "vertices": []}"#, MeshFormat::Json));
+/// assert!(!holds_mesh(br#"{"points": [[0, 0]]}"#, MeshFormat::Json));
+/// ```
+pub fn holds_mesh(text: &[u8], format: MeshFormat) -> bool {
+    let source = Source { bytes: text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text), file: "" };
+    match format {
+        MeshFormat::Ron => mesh_ron::parse_ron::<MeshProbe>(&source).is_ok(),
+        _ => parse::<MeshProbe>(&source).is_ok(),
+    }
+}
+
+/// The member that must be there.
+#[derive(Deserialize)]
+struct MeshProbe {
+    #[serde(rename = "triangles")]
+    _triangles: IgnoredAny,
 }
 
 /// Reads a mesh from the two texts of a `.node` and an `.ele` file, each with

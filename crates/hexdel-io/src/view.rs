@@ -6,6 +6,7 @@ use hexdel_geom::{TriMesh, VertexId};
 use serde::{Deserialize, Serialize};
 
 use crate::error::WriteError;
+use crate::format::MeshFormat;
 use crate::picture::Picture;
 
 /// An edge of a mesh that has a marker: on an input segment or on the boundary.
@@ -105,6 +106,34 @@ impl<'a> MeshView<'a> {
     #[must_use]
     pub fn with_picture(self, picture: Picture<'a>) -> Self {
         Self { picture, ..self }
+    }
+
+    /// What the view has and a format does not carry, in words.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # let mesh = hexdel_geom::TriMesh::default();
+    /// use hexdel_io::{MeshFormat, MeshView};
+    ///
+    /// let view = MeshView::new(&mesh).with_regions(&[]);
+    /// assert_eq!(view.lost_in(MeshFormat::Off), ["regions"]);
+    /// assert!(view.lost_in(MeshFormat::Vtu).is_empty());
+    /// ```
+    pub fn lost_in(&self, format: MeshFormat) -> Vec<&'static str> {
+        use MeshFormat as F;
+        let inputs = [F::NodeEle, F::Poly, F::Vtu, F::Msh41, F::Msh22, F::Json, F::Ron, F::Svg];
+        let markers = [F::NodeEle, F::Poly, F::Vtu, F::Msh41, F::Msh22, F::Medit, F::Json, F::Ron];
+        let regions = [F::NodeEle, F::Vtu, F::Msh41, F::Msh22, F::Medit, F::Json, F::Ron];
+        let edges = [F::Edge, F::Poly, F::Msh41, F::Msh22, F::Medit, F::Json, F::Ron];
+        let all = [
+            ("input indices", self.input_indices.is_some(), &inputs[..]),
+            ("vertex markers", self.vertex_markers.is_some(), &markers),
+            ("regions", self.regions.is_some(), &regions),
+            ("marked edges", self.marked_edges.is_some(), &edges),
+        ];
+        let lost = all.iter().filter(|(_, there, carry)| *there && !carry.contains(&format));
+        lost.map(|(name, ..)| *name).collect()
     }
 
     /// The index of the input point that `vertex` is.

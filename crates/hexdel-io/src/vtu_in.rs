@@ -6,8 +6,8 @@
 //! base64, or appended, raw or in base64, in either byte order and compressed by zlib;
 //! see [`vtu_array`](crate::vtu_array).
 //!
-//! `quick-xml` cuts the text into tags. `vtkio` would decode all arrays of a file
-//! whether they are wanted or not, and its faults have no lines.
+//! `quick-xml` cuts the text into tags. `vtkio` holds all arrays of a file whether they
+//! are wanted or not, and its faults have no lines.
 
 use std::cell::Cell;
 use std::io::{self, BufRead, Read};

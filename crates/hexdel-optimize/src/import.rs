@@ -1,6 +1,7 @@
 //! From the caller's mesh to arrays, with every promise checked, and back.
 
 use hexdel_geom::{DVec2, TriMesh, VertexId};
+use rayon::prelude::*;
 
 use crate::constraints::{Constraints, Line};
 use crate::error::OptimizeError;
@@ -8,9 +9,9 @@ use crate::mesh::{Around, Mesh, Motion, NONE, Soup, Vertices, opening};
 use crate::options::VertexKind;
 
 /// A sliding vertex's direction may differ from its rim sides' by the rounding
-/// of coordinates that are small differences of large ones; beyond this sine
-/// it is another direction.
-const STRAIGHT: f64 = 1e-6;
+/// of coordinates that are small differences of large ones; beyond this sine,
+/// that of [`kinds_of`](crate::kinds_of), it is another direction.
+const STRAIGHT: f64 = 1e-3;
 
 /// Sine of the turn at a vertex on a segment: where neighbours are as near as
 /// coordinates resolve, their rounding turns the edges, yet never by so much.
@@ -174,15 +175,15 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
         from: VertexId::new(s.from as usize),
         to: VertexId::new(s.to as usize),
     })?;
-    let (mut tris, mut ring) = (Vec::new(), Vec::new());
-    (0..n as u32)
-        .map(|v| {
+    let checked: Vec<Result<f64, OptimizeError>> = (0..n as u32)
+        .into_par_iter()
+        .map_init(<(Vec<u32>, Vec<u32>)>::default, |(tris, ring), v| {
             let (vertex, at) = (VertexId::new(v as usize), soup.pos[v as usize]);
             if !mesh.alive(v) {
                 return Err(OptimizeError::Isolated { vertex, at });
             }
-            let closed = mesh.ring(v, &mut tris, &mut ring);
-            let stay: Vec<u32> = bound_neighbours(&mesh, v, &tris);
+            let closed = mesh.ring(v, tris, ring);
+            let stay: Vec<u32> = bound_neighbours(&mesh, v, tris);
             if tris.len() != mesh.degree(v) {
                 return Err(OptimizeError::NotOneFan { vertex, at });
             }
@@ -199,7 +200,9 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
                 _ => Err(OptimizeError::Misplaced { vertex, at }),
             }
         })
-        .collect()
+        .collect();
+    // The first one in order, whichever thread was first.
+    checked.into_iter().collect()
 }
 
 /// The vertices that edges which must stay join to `v`, in the triangles `tris`.

@@ -149,6 +149,11 @@ pub(crate) struct Seams {
     shared: Vec<bool>,
     /// As [`Soup::near`] says.
     near: Vec<bool>,
+    /// The vertices that are in no other part, for each part, ascending; the
+    /// last list is that of the triangles nobody works on.
+    own: Vec<Vec<u32>>,
+    /// Where each vertex that is not shared stands in its part's list.
+    place: Vec<u32>,
 }
 
 impl Seams {
@@ -164,16 +169,32 @@ impl Seams {
                 owner[v] = p as u32;
             }
         }
-        Self { degree, shared, near: soup.near() }
+        let mut own = vec![Vec::new(); cuts.parts.len() + 1];
+        let mut place = vec![NONE; soup.pos.len()];
+        for v in (0..soup.pos.len()).filter(|&v| !shared[v] && owner[v] != NONE) {
+            let list: &mut Vec<u32> = &mut own[owner[v] as usize];
+            place[v] = list.len() as u32;
+            list.push(v as u32);
+        }
+        Self { degree, shared, own, place, near: soup.near() }
     }
 }
 
-/// Cuts one part out of the soup.
-pub(crate) fn extract(soup: &Soup, seams: &Seams, triangles: &[u32]) -> Part {
-    let mut global: Vec<u32> = triangles.iter().flat_map(|&t| soup.tris[t as usize]).collect();
-    global.sort_unstable();
-    global.dedup();
-    let local = |v: u32| global.binary_search(&v).expect("every corner was collected") as u32;
+/// Cuts part `index` out of the soup: its own vertices, then those on seams.
+pub(crate) fn extract(soup: &Soup, seams: &Seams, cuts: &Cuts, index: usize) -> Part {
+    let (triangles, own) = (&cuts.parts[index], &seams.own[index]);
+    let corners = triangles.iter().flat_map(|&t| soup.tris[t as usize]);
+    let mut seam: Vec<u32> = corners.filter(|&v| seams.shared[v as usize]).collect();
+    seam.sort_unstable();
+    seam.dedup();
+    let local = |v: u32| {
+        if seams.shared[v as usize] {
+            (own.len() + seam.binary_search(&v).expect("every corner was collected")) as u32
+        } else {
+            seams.place[v as usize]
+        }
+    };
+    let global: Vec<u32> = own.iter().chain(&seam).copied().collect();
     let tris: Vec<[u32; 3]> = triangles.iter().map(|&t| soup.tris[t as usize].map(local)).collect();
     let mut outside: Vec<u16> = global.iter().map(|&v| seams.degree[v as usize]).collect();
     for &v in tris.iter().flatten() {

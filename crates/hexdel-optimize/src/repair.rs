@@ -40,8 +40,8 @@ pub(crate) fn step(round: usize) -> Step {
     }
 }
 
-/// Rounds that come before removals: motion alone.
-pub(crate) const FIRST_ROUNDS: usize = 3;
+/// The motions that come before each pass of removals.
+const MOVES: [&[usize]; 2] = [&[0, 1], &[2]];
 
 /// The steps of each round of search, after which a mesh is given up.
 pub(crate) const SEARCH: [(usize, usize); 7] =
@@ -82,6 +82,13 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
             Step::Thin => thin(work, t),
             Step::Refine => refine(work, t, TOLERATED),
         }
+    }
+}
+
+/// Moves what is bad before pass `pass` of removals.
+pub(crate) fn moves(work: &mut Work, pass: usize) {
+    for &i in MOVES.get(pass).copied().unwrap_or_default() {
+        repair(work, step(i));
     }
 }
 

@@ -17,7 +17,7 @@ use crate::options::{Effort, Optimized, Options, Stats, VertexKind};
 use crate::partition::{Cuts, Part, Seams, extract, merge, partition, spots};
 use crate::random::Random;
 use crate::refill::Refills;
-use crate::repair::{self, repair, search};
+use crate::repair::{self, search};
 use crate::rescue::rescue;
 use crate::shake::{SHAKES, shake};
 use crate::sizing::Sizing;
@@ -121,7 +121,7 @@ fn run(
 }
 
 /// Passes of removals at fast effort, and the fewest before search.
-const FAST_PASSES: usize = 5;
+const FAST_PASSES: usize = 1;
 
 /// Passes of removals at standard effort: the later ones take half as long
 /// again for 3 to 4 % fewer triangles.
@@ -139,7 +139,7 @@ const HOPELESS: usize = 20;
 
 /// Parts that a thread works on between two looks at clock and monitor: some
 /// tenths of a second.
-const BATCH: usize = 4;
+const BATCH: usize = 8;
 
 /// Why the work ends early.
 enum Stop {
@@ -179,11 +179,10 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The phases in turn. Removals come before search: what motion alone does
-    /// not settle often goes with a vertex, and search is cheaper on the
-    /// coarser mesh.
+    /// The phases in turn. Motion and removals come before search: what motion
+    /// alone does not settle often goes with a vertex, and search is cheaper on
+    /// the coarser mesh.
     fn all(&mut self) -> Result<(), Stop> {
-        self.move_all()?;
         let passes = if self.options.effort == Effort::Fast { FAST_PASSES } else { STANDARD_PASSES };
         self.decimate(0, passes)?;
         self.search()?;
@@ -200,7 +199,7 @@ impl<'a> Run<'a> {
 
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        let once = repair::FIRST_ROUNDS + repair::SEARCH.len() + RESCUE_RINGS.len();
+        let once = repair::SEARCH.len() + RESCUE_RINGS.len();
         match self.options.effort {
             Effort::Fast => once + FAST_PASSES,
             Effort::Standard => once + STANDARD_PASSES,
@@ -210,22 +209,11 @@ impl<'a> Run<'a> {
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
         self.guard = self.sizing;
-        for &pass in &PASSES[from..to] {
+        for i in from..to {
             self.round(|work| {
-                decimate(work, pass);
+                repair::moves(work, i);
+                decimate(work, PASSES[i]);
             })?;
-        }
-        Ok(())
-    }
-
-    /// Motion alone, over the whole mesh.
-    fn move_all(&mut self) -> Result<(), Stop> {
-        self.guard = None;
-        for i in 0..repair::FIRST_ROUNDS {
-            if self.bad().is_empty() {
-                break;
-            }
-            self.round(|work| repair(work, repair::step(i)))?;
         }
         Ok(())
     }
@@ -244,7 +232,8 @@ impl<'a> Run<'a> {
         }
         for rings in RESCUE_RINGS {
             let bad = self.bad();
-            if bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+            // Between segments that meet at less than the bound no refinement helps.
+            if self.soup.is_constrained() || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
@@ -280,20 +269,20 @@ impl<'a> Run<'a> {
         let seed = self.options.seed.wrapping_add((round as u64) << 32);
         let mut parts = Vec::with_capacity(cuts.parts.len());
         let batch = BATCH * rayon::current_num_threads();
-        for batch in cuts.parts.chunks(batch) {
-            let first = parts.len();
+        for first in (0..cuts.parts.len()).step_by(batch) {
             let idle = match self.look() {
                 Err(Stop::Cancelled(c)) => return Err(Stop::Cancelled(c)),
                 looked => looked.is_err(),
             };
-            let work = |(i, triangles): (usize, &Vec<u32>)| {
-                let part = extract(&self.soup, &seams, triangles);
+            let work = |i: usize| {
+                let part = extract(&self.soup, &seams, cuts, i);
                 if idle {
                     return (part, Stats::default());
                 }
-                self.work(part, seed.wrapping_add((first + i) as u64), &job)
+                self.work(part, seed.wrapping_add(i as u64), &job)
             };
-            let done: Vec<(Part, Stats)> = batch.par_iter().enumerate().map(work).collect();
+            let last = (first + batch).min(cuts.parts.len());
+            let done: Vec<(Part, Stats)> = (first..last).into_par_iter().map(work).collect();
             for (part, stats) in done {
                 self.stats.add(&stats);
                 parts.push(part);

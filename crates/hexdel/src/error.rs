@@ -188,6 +188,17 @@ impl From<PslgError> for Error {
 }
 
 impl Error {
+    /// Triangles outside the bounds of the mesh it carries; errors that carry
+    /// none are worst.
+    pub(crate) fn outside(&self) -> usize {
+        match self {
+            Self::Unreached { certificate, .. } | Self::NotCertified { certificate, .. } => {
+                certificate.out_of_bounds
+            }
+            _ => usize::MAX,
+        }
+    }
+
     /// A refinement error, which only cancellation can cause once the closest
     /// pair has been found to be resolved; with the pair, should it be the
     /// other one after all.

@@ -72,6 +72,7 @@ pub use hexdel_geom::{
     AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
 };
 pub use hexdel_optimize::Effort;
+pub use hexdel_pslg::SegmentMethod;
 pub use mesher::{Mesher, Method, Start, triangulate};
 pub use session::{Outcome, PointId, Session, SessionError, SessionMesh};
 pub use size::{Size, SizeError};

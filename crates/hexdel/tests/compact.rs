@@ -7,12 +7,16 @@ mod common;
 use common::bits;
 use hexdel::generate::{Kind, generate};
 use hexdel::geom::{CertifyOptions, certify};
-use hexdel::{AngleBounds, DVec2, Effort, Error, Mesher, Method, Triangulation, triangulate};
+use hexdel::{AngleBounds, DVec2, Effort, Error, Mesher, Method, Start, Triangulation};
 use proptest::prelude::*;
 use std::time::Duration;
 
 fn compact() -> Mesher {
     Mesher::new().method(Method::Compact)
+}
+
+fn triangulate(points: &[DVec2]) -> Result<Triangulation, Error> {
+    Mesher::new().method(Method::Templates).triangulate(points)
 }
 
 /// Holds a mesh to the bounds asked for, from scratch.
@@ -48,7 +52,33 @@ fn every_kind_of_point_set() {
     for kind in Kind::ALL {
         for (seed, n) in [(1, 1), (2, 2), (3, 40)] {
             let points = generate(kind, n, seed);
-            hold(&compact().triangulate(&points).unwrap(), &points, AngleBounds::EXTENDED);
+            let made = compact().triangulate(&points).unwrap();
+            hold(&made, &points, AngleBounds::EXTENDED);
+            assert_eq!(made.start, Start::Coarse, "{kind} {n}");
+        }
+    }
+}
+
+#[test]
+fn it_is_the_default() {
+    let points = generate(Kind::Uniform, 10, 4);
+    let made = hexdel::triangulate(&points).unwrap();
+    assert_eq!(made.method, Method::Compact);
+    assert!(bits(&made) == bits(&compact().triangulate(&points).unwrap()));
+}
+
+/// A power of two changes exponents only, in every comparison.
+#[test]
+fn scaling_by_a_power_of_two_scales_the_mesh() {
+    let points = generate(Kind::Pairs, 16, 4);
+    let plain = compact().triangulate(&points).unwrap();
+    for exponent in [-100, -7, 60] {
+        let scale = 2.0_f64.powi(exponent);
+        let scaled: Vec<DVec2> = points.iter().map(|&p| p * scale).collect();
+        let scaled = compact().triangulate(&scaled).unwrap();
+        assert_eq!(plain.mesh.triangles, scaled.mesh.triangles);
+        for (p, q) in plain.mesh.vertices.iter().zip(&scaled.mesh.vertices) {
+            assert_eq!(*p * scale, *q);
         }
     }
 }

@@ -1,4 +1,6 @@
-//! What holds for every input, tried on random ones.
+//! What holds for every input, tried on random ones: meshes of the grid, by
+//! templates and by simple refinement. The compact method's own are in
+//! `compact.rs`.
 //!
 //! A failing case is not kept by proptest: once understood it goes to
 //! `fixtures/regressions`, where every later test sees it.
@@ -11,7 +13,7 @@ use common::{bits, hold};
 use hexdel::generate::{Kind, generate};
 use hexdel::grid::Lattice;
 use hexdel::refine::{Refiner, RuleSet};
-use hexdel::{DVec2, Mesher, Method, Triangulation, Unwatched, triangulate};
+use hexdel::{DVec2, Error, Mesher, Method, Triangulation, Unwatched};
 use proptest::prelude::*;
 
 fn config() -> ProptestConfig {
@@ -30,6 +32,14 @@ fn point_sets(most: usize) -> impl Strategy<Value = Vec<DVec2>> {
     let kinds = (0..Kind::ALL.len(), 1..most, any::<u64>())
         .prop_map(|(kind, n, seed)| generate(Kind::ALL[kind], n, seed));
     prop_oneof![plain, ties, kinds]
+}
+
+fn templates() -> Mesher {
+    Mesher::new().method(Method::Templates)
+}
+
+fn triangulate(points: &[DVec2]) -> Result<Triangulation, Error> {
+    templates().triangulate(points)
 }
 
 fn mesh(points: &[DVec2], method: Method) -> Triangulation {
@@ -51,7 +61,7 @@ proptest! {
 
     #[test]
     fn promises_do_not_need_coarsening(points in point_sets(25)) {
-        hold(&Mesher::new().coarsening(false).triangulate(&points).unwrap(), &points);
+        hold(&templates().coarsening(false).triangulate(&points).unwrap(), &points);
     }
 
     /// Adding points later leaves no rule unobeyed either.
@@ -109,7 +119,7 @@ proptest! {
 
     #[test]
     fn the_mesh_does_not_depend_on_threads(points in point_sets(120)) {
-        let on = |threads| bits(&Mesher::new().threads(threads).triangulate(&points).unwrap());
+        let on = |threads| bits(&templates().threads(threads).triangulate(&points).unwrap());
         let one = on(1);
         prop_assert!(one == on(2), "two threads");
         prop_assert!(one == on(8), "eight threads");
@@ -187,7 +197,7 @@ proptest! {
     #[test]
     fn a_domain_of_any_radius(points in point_sets(20), times in 2.0..9.0_f64) {
         let least = triangulate(&points).unwrap().patch.radius;
-        let made = Mesher::new().domain_radius(least * times).triangulate(&points).unwrap();
+        let made = templates().domain_radius(least * times).triangulate(&points).unwrap();
         hold(&made, &points);
         prop_assert!((made.patch.radius / (least * times) - 1.0).abs() < 1e-12);
         let reach = made.mesh.vertices.iter().map(|v| v.distance(made.patch.centre)).fold(0.0, f64::max);

@@ -26,7 +26,7 @@ const SHOWN: usize = 10;
     hexdel check mesh.ele --input letters.poly\n  \
     hexdel check mesh.ele --min-angle 20 --max-angle 140 --json")]
 pub(crate) struct Args {
-    /// Mesh: .ele or .node (each with the other beside it), or .ron
+    /// Mesh, in any format that is read, such as .ele (with its .node), .vtu or .msh
     mesh: PathBuf,
     /// File of points that must be vertices, bit for bit, and of segments
     #[arg(long)]

@@ -35,7 +35,7 @@ pub(crate) struct Args {
     #[arg(long, value_enum, hide_possible_values = true)]
     domain: Option<DomainName>,
     /// templates, simple or compact (fewest triangles)
-    #[arg(long, value_enum, default_value_t = MethodName::Templates, hide_possible_values = true)]
+    #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
     /// How hard compact tries: fast, standard or best
     #[arg(long, value_enum, default_value_t = EffortName::Standard, hide_possible_values = true)]
@@ -56,6 +56,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
     repair: Option<Option<f64>>,
+    /// How segments fit in: conform, or paper (keeps no bounds there)
+    #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true)]
+    pslg: Option<PslgName>,
     /// Circumradius of the hexagon around points [default: the least]
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
@@ -82,6 +85,12 @@ enum DomainName {
     Hull,
     Box,
     Inside,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum PslgName {
+    Conform,
+    Paper,
 }
 
 #[derive(Clone, Copy, ValueEnum)]

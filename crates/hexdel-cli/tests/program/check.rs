@@ -85,7 +85,8 @@ fn bad_files_are_refused() {
     bench.file("b.ron", "nonsense");
     for (mesh, words) in [
         ("missing.ele", "no such file"),
-        ("a.svg", "unknown extension"),
+        ("a.svg", "is written, not read"),
+        ("a.stl", "unknown extension"),
         ("a.ron", "not finite"),
         ("b.ron", "b.ron:1:"),
     ] {

@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 mod check;
+mod convert;
 mod dual;
 mod generate;
 mod graph;

@@ -68,10 +68,12 @@ fn options_reach_the_mesher() {
         bench.run(&format!("mesh {input} -q --report r.json {options}")).fine();
         bench.json("r.json")
     };
-    let (plain, simple) = (figures(""), figures("--method simple"));
+    let (plain, simple) = (figures("--method templates"), figures("--method simple"));
     assert!(simple["triangles"].as_u64() < plain["triangles"].as_u64());
     assert!(simple["max_angle_deg"].as_f64().unwrap() > 90.0);
-    assert!(figures("--no-coarsening")["triangles"].as_u64() > plain["triangles"].as_u64());
+    assert!(
+        figures("--method templates --no-coarsening")["triangles"].as_u64() > plain["triangles"].as_u64()
+    );
     assert_eq!(figures("--domain-radius 5")["domain_radius"].as_f64(), Some(5.0));
     let picture = |options: &str| {
         bench.run(&format!("mesh {input} -q -o p.svg {options}")).fine();
@@ -208,10 +210,10 @@ fn compact_meshes_are_small_and_hold() {
         bench.run(&format!("check m.ele --input {input}")).fine();
         bench.json("r.json")["triangles"].as_u64().unwrap()
     };
-    let templates = triangles("");
-    let standard = triangles("--method compact");
+    let templates = triangles("--method templates");
+    let standard = triangles("");
     let fast = triangles("--method compact --effort fast");
-    let none = triangles("--method compact --budget 0");
+    let none = triangles("--budget 0");
     assert!(8 * standard < templates && standard < fast && none == templates, "{standard} {fast} {none}");
     assert_eq!(bench.json("r.json")["method"], "compact");
 }
@@ -224,7 +226,7 @@ fn angles_may_be_asked_for() {
     assert_eq!(bench.json("r.json")["bounds"]["min_deg"], 30.0);
     assert_eq!(bench.json("r.json")["bounds"]["max_deg"], 90.0);
     for (arguments, code, message) in [
-        ("--min-angle 50", 2, "more than the method keeps"),
+        ("--method templates --min-angle 50", 2, "more than the method keeps"),
         ("--min-angle 70", 2, "no triangle has all angles"),
         ("--max-angle -1", 2, "no triangle has all angles"),
         ("--method compact --budget -1", 2, "expected a number of seconds"),

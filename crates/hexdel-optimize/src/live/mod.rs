@@ -29,6 +29,7 @@ mod thin;
 mod verify;
 
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::constraints::Rules;
@@ -87,7 +88,7 @@ pub enum LiveError {
 
 /// What a change did to the mesh, by serial numbers, which are never used
 /// again. Ascending.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Delta {
     /// Vertices that are gone.

@@ -209,3 +209,83 @@ fn triangles(split: Split, ring: &[u32]) -> Vec<[Place; 3]> {
     let gap = [[own, corner(split.to), Place::Twin], [own, Place::Twin, corner(split.from)]];
     fan(own, split.from, kept).chain(fan(Place::Twin, split.to, n - kept)).chain(gap).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validate::Piece;
+    use hexdel_geom::{TriMesh, VertexId};
+    use hexdel_grid::{Address, Hex};
+
+    /// A hexagon around the origin, its neighbours at distance 1, and two
+    /// pieces through it that meet in neighbour 3, at (-1, 0).
+    fn star() -> (Net, Vec<DVec2>, Vec<Piece>) {
+        let mut vertices = vec![DVec2::ZERO];
+        vertices.extend((0..6).map(|i| DVec2::from_angle((60.0 * f64::from(i)).to_radians())));
+        let id = VertexId::new;
+        let triangles = (0..6).map(|i| [id(0), id(1 + i), id(1 + (i + 1) % 6)]).collect();
+        let mut net = Net::of(&TriMesh { vertices: vertices.clone(), triangles });
+        let sites = vec![vertices[4], DVec2::new(1.0, 0.6), DVec2::new(1.0, -0.6)];
+        net.lines = vec![[sites[0], sites[1]], [sites[0], sites[2]]];
+        net.move_to(4, sites[0], Kind::Site(0));
+        let pieces = vec![Piece { ends: [0, 1], segment: 0 }, Piece { ends: [0, 2], segment: 1 }];
+        (net, sites, pieces)
+    }
+
+    fn record(net: &Net, piece: u32) -> Record {
+        Record { hexagon: 0, piece, t: 0.5, at: net.along(piece, 0.5) }
+    }
+
+    fn scene<'a>(sites: &'a [DVec2], pieces: &'a [Piece]) -> Scene<'a> {
+        Scene { sites, pieces, input_of_site: &[0, 1, 2], max_triangles: 100 }
+    }
+
+    #[test]
+    fn a_hexagon_of_two_segments_is_split() {
+        let (mut net, sites, pieces) = star();
+        let records = [record(&net, 0), record(&net, 1)];
+        assert_eq!(place(&mut net, &scene(&sites, &pieces), &records, &[Some(0)]), 0);
+        assert_eq!(net.violation(), None);
+        assert_eq!(net.alive().count(), 8);
+        assert_eq!((net.at(0), net.at(7)), (records[0].at, records[1].at));
+        // Both are neighbours of where the segments meet, and of each other;
+        // each keeps the neighbours on its side.
+        for (a, b) in [(0, 4), (7, 4), (0, 7), (0, 2), (0, 3), (7, 5), (7, 6)] {
+            assert!(net.find_either(a, b).is_some(), "{a} {b}");
+        }
+        assert!(net.find_either(0, 5).is_none() && net.find_either(7, 3).is_none());
+    }
+
+    #[test]
+    fn what_would_turn_over_is_left_out() {
+        let (mut net, sites, pieces) = star();
+        net.lines[1] = [sites[0], DVec2::new(1.0, -3.0)];
+        // Beyond the side between two neighbours.
+        let records = [Record { at: DVec2::new(0.0, -0.9), ..record(&net, 1) }];
+        assert_eq!(place(&mut net, &scene(&sites, &pieces), &records, &[Some(0)]), 1);
+        assert_eq!((net.at(0), net.violation()), (DVec2::ZERO, None));
+        // Behind the other segment's vertex no split helps.
+        let outside = Record { at: DVec2::new(-2.0, 0.0), ..record(&net, 1) };
+        let records = [record(&net, 0), outside];
+        assert_eq!(place(&mut net, &scene(&sites, &pieces), &records, &[Some(0)]), 1);
+        assert_eq!((net.alive().count(), net.violation()), (6, None));
+    }
+
+    #[test]
+    fn centres_that_nothing_projects_go_home_if_that_is_better() {
+        let lattice = Lattice::new(DVec2::ZERO, 1.0);
+        let passed = [Passed { at: Address::new(0, Hex::ORIGIN), pieces: vec![0] }];
+        for (shift, home) in [(DVec2::new(0.3, 0.2), true), (DVec2::ZERO, false)] {
+            let (mut net, ..) = star();
+            net.move_to(0, shift, Kind::Free);
+            settle(&mut net, &lattice, &passed, &[Some(0)]);
+            assert_eq!(net.at(0) != shift, home);
+            assert_eq!(net.at(0), DVec2::ZERO);
+        }
+        let (mut net, ..) = star();
+        let along = Kind::Along { piece: 0, t: 0.5 };
+        net.move_to(0, DVec2::new(0.0, 0.3), along);
+        settle(&mut net, &lattice, &passed, &[Some(0)]);
+        assert_eq!(net.at(0), DVec2::new(0.0, 0.3));
+    }
+}

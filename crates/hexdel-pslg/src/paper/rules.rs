@@ -334,3 +334,90 @@ fn disturbed(grid: &Grid, passed: &[Passed]) -> Vec<Raise> {
     }
     raises
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hexdel_geom::Unwatched;
+    use hexdel_grid::{Direction, Lattice};
+    use hexdel_refine::RuleSet;
+
+    fn refined(sites: &[DVec2], ends: &[[u32; 2]]) -> Result<(Refiner, Vec<Passed>), PslgError> {
+        let pieces: Vec<Piece> =
+            ends.iter().zip(0..).map(|(&ends, segment)| Piece { ends, segment }).collect();
+        let input_of_site: Vec<u32> = (0..sites.len() as u32).collect();
+        let scene = Scene { sites, pieces: &pieces, input_of_site: &input_of_site, max_triangles: 50_000 };
+        let mut refiner = Refiner::new(Lattice::new(DVec2::ZERO, 8.0), RuleSet::extended());
+        let passed = refine(&mut refiner, &scene, &Unwatched)?;
+        Ok((refiner, passed))
+    }
+
+    /// Two chains, one of them with points close together, and a point alone.
+    fn scene(seed: u32) -> (Vec<DVec2>, Vec<[u32; 2]>) {
+        let turn = DVec2::from_angle(f64::from(seed) * 0.37);
+        let points =
+            [(-1.5, 0.0), (0.1, 0.2), (1.5, 0.1), (-1.0, 1.0), (-0.9, 1.02), (0.8, 1.3), (0.3, -0.6)];
+        let sites = points.map(|(x, y)| turn.rotate(DVec2::new(x, y)) + DVec2::splat(0.01)).to_vec();
+        (sites, vec![[0, 1], [1, 2], [3, 4], [4, 5]])
+    }
+
+    #[test]
+    fn chains_have_one_level_and_full_surroundings() {
+        for seed in 0..20 {
+            let (sites, ends) = scene(seed);
+            let (refiner, passed) = refined(&sites, &ends).unwrap();
+            assert_eq!(refiner.violation(), None, "{seed}");
+            let grid = refiner.grid();
+            let levels = |of: [u32; 2]| {
+                let own = passed.iter().filter(move |p| p.pieces.iter().any(|i| of.contains(i)));
+                own.map(|p| p.at.level).collect::<std::collections::BTreeSet<_>>()
+            };
+            assert_eq!((levels([0, 1]).len(), levels([2, 3]).len()), (1, 1), "{seed}");
+            assert!(levels([0, 1]) < levels([2, 3]), "{seed}");
+            for p in &passed {
+                for hex in p.at.hex.disc(1) {
+                    let at = Address::new(p.at.level, hex);
+                    assert!(grid.exists(at) && !grid.is_subdivided(at), "{seed} {at:?}");
+                    assert_eq!(grid.fins(at), 0, "{seed} {at:?}");
+                    for d in Direction::ALL {
+                        let below = Address::new(at.level, hex.neighbour(d));
+                        let fins = grid.fins(below);
+                        let is_top = (0..6).all(|i| {
+                            let by = (i + 6 - d.index()) % 6;
+                            (fins >> i & 1 == 1) == [0, 1, 5].contains(&by)
+                        });
+                        assert!(!is_top, "{seed} {at:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn points_are_alone_with_their_segments() {
+        for seed in 0..20 {
+            let (sites, ends) = scene(seed);
+            let (refiner, passed) = refined(&sites, &ends).unwrap();
+            for (site, occupant) in refiner.occupants().iter().enumerate() {
+                for p in passed.iter().filter(|p| p.at.level == occupant.level) {
+                    if p.at.hex.distance(occupant.at.hex) < 2 {
+                        assert!(p.pieces.iter().all(|&i| ends[i as usize].contains(&(site as u32))));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_too_close_or_too_much_is_named() {
+        let at = |points: [(f64, f64); 3]| points.map(|(x, y)| DVec2::new(x, y));
+        let long = at([(-1.0, 0.0), (1.0, 0.0), (0.1, 1e-14)]);
+        let refused = refined(&long, &[[0, 1]]).err();
+        assert!(matches!(refused, Some(PslgError::TooMany { limit: 50_000, .. })), "{refused:?}");
+        // A short one is within the budget on every level: precision ends.
+        let short = at([(1.0, 1.0), (1.0 + 4e-9, 1.0), (1.0 + 2e-9, 1.0 + 2e-12)]);
+        let refused = refined(&short, &[[0, 1]]).err();
+        let items = [Feature::Point(2), Feature::Segment(0)];
+        assert!(matches!(refused, Some(PslgError::TooClose { items: i, .. }) if i == items), "{refused:?}");
+    }
+}

@@ -13,7 +13,7 @@ mod watch;
 use crate::error::Error;
 use crate::mesher::{Mesher, Method};
 use hexdel_geom::{AngleBounds, Monitor, Phase, Pslg, Unwatched};
-use hexdel_pslg::{Extent, Options, mesh, validate};
+use hexdel_pslg::{Extent, Options, SegmentMethod, mesh, validate};
 use repair::Repaired;
 use result::PslgTriangulation;
 use watch::Stopwatch;
@@ -72,6 +72,7 @@ pub(crate) struct GraphOptions {
     near: Option<AngleBounds>,
     max_area: Option<f64>,
     repair: Option<Tolerance>,
+    segments: Option<SegmentMethod>,
 }
 
 impl GraphOptions {
@@ -83,6 +84,7 @@ impl GraphOptions {
             ("bounds near segments", self.near.is_some()),
             ("a limit on areas", self.max_area.is_some()),
             ("repair", self.repair.is_some()),
+            ("a way with segments", self.segments.is_some()),
         ];
         match given.into_iter().find(|(_, given)| *given) {
             Some((option, _)) => Err(Error::NotForPoints { option }),
@@ -169,6 +171,26 @@ impl Mesher {
     #[must_use]
     pub fn max_area(mut self, area: f64) -> Self {
         self.graph.max_area = Some(area);
+        self
+    }
+
+    /// How segments come into the mesh of a graph, by default as an optimiser
+    /// makes them fit.
+    ///
+    /// [`SegmentMethod::Paper`] is for comparison: it keeps no bounds near
+    /// segments, and triangles there do not count as failures.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Pslg, SegmentMethod, pslg::Reason};
+    /// let mut square = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::new(0.9, 1.2), DVec2::Y]);
+    /// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0]];
+    /// let made = Mesher::new().segment_method(SegmentMethod::Paper).triangulate_pslg(&square)?;
+    /// assert!(made.holds() && made.failed.iter().all(|f| f.reason == Reason::Template));
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn segment_method(mut self, method: SegmentMethod) -> Self {
+        self.graph.segments = Some(method);
         self
     }
 
@@ -284,7 +306,9 @@ impl Mesher {
     }
 
     fn pslg_options(&self, domain: Domain) -> Options {
-        let mut options = Options::new().extent(domain.extent());
+        let effort = (self.method == Method::Compact).then_some(self.effort);
+        let mut options = Options::new().extent(domain.extent()).compact(effort);
+        options.method = self.graph.segments.unwrap_or_default();
         if let Some(bounds) = self.bounds {
             (options.near, options.far) = (bounds, bounds);
         }

@@ -3,7 +3,7 @@
 use super::result::PslgTriangulation;
 use crate::triangulation::Seconds;
 use hexdel_geom::{Certificate, DVec2, Pslg};
-use hexdel_pslg::{Exception, Reason, Repair};
+use hexdel_pslg::{Exception, Reason, Repair, SegmentMethod};
 use serde::Serialize;
 
 /// The figures of a graph's mesh.
@@ -13,7 +13,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct PslgReport<'a> {
-    /// How the mesh was made.
+    /// How segments came into the mesh.
     pub method: &'static str,
     /// What it covers.
     pub domain: &'static str,
@@ -54,7 +54,8 @@ pub struct ExceptionEntry {
     pub min_angle_deg: f64,
     /// Its largest angle, degrees.
     pub max_angle_deg: f64,
-    /// Why, in a word: "sector", "near sector" or "unsolved".
+    /// Why, in a word: "sector", "near sector", "template" or
+    /// "unsolved".
     pub reason: &'static str,
     /// The corner of the input to blame, if there is one.
     pub corner: Option<Corner>,
@@ -86,7 +87,10 @@ impl<'a> PslgReport<'a> {
         let entries = |list: &[Exception]| list.iter().map(|e| ExceptionEntry::new(e, &made.graph)).collect();
         let repairs = made.repairs.iter().flat_map(|report| &report.repairs);
         Self {
-            method: "conform",
+            method: match made.method {
+                SegmentMethod::Paper => "paper",
+                _ => "conform",
+            },
             domain: made.domain.name(),
             holds: made.holds(),
             certificate: &made.certificate,
@@ -114,6 +118,7 @@ impl ExceptionEntry {
         let (reason, corner) = match exception.reason {
             Reason::Sector { point, angle_deg } => ("sector", Some(corner(point, angle_deg))),
             Reason::NearSector { point, angle_deg, .. } => ("near sector", Some(corner(point, angle_deg))),
+            Reason::Template => ("template", None),
             _ => ("unsolved", None),
         };
         let [min_angle_deg, max_angle_deg] = exception.angles_deg;
@@ -134,6 +139,7 @@ impl std::fmt::Display for ExceptionEntry {
             (_, Some(Corner { point, angle_deg, .. })) => {
                 write!(f, "near point {point}, where segments meet at {angle_deg:.4}")
             }
+            ("template", _) => write!(f, "by the paper's templates"),
             _ => write!(f, "no way was found"),
         }
     }

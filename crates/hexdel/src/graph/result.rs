@@ -5,7 +5,7 @@ use super::repair::Repaired;
 use super::report::PslgReport;
 use crate::triangulation::Seconds;
 use hexdel_geom::{Certificate, Pslg, SegmentCheck, TriMesh, VertexId};
-use hexdel_pslg::{Exception, PslgMesh, RepairReport, SegmentEdge};
+use hexdel_pslg::{Exception, PslgMesh, Reason, RepairReport, SegmentEdge, SegmentMethod};
 
 /// A mesh of a graph of points and segments.
 ///
@@ -51,6 +51,8 @@ pub struct PslgTriangulation {
     pub segments: SegmentCheck,
     /// What it covers.
     pub domain: Domain,
+    /// How segments came into it.
+    pub method: SegmentMethod,
     /// How often parts of the grid were refined because bounds were not met.
     pub retries: u32,
     /// How long it took.
@@ -80,13 +82,16 @@ impl PslgTriangulation {
             certificate: made.certificate,
             segments,
             domain,
+            method: made.method,
             retries: made.retries,
             seconds,
         }
     }
 
     /// Whether every triangle keeps its bounds, up to exempt corners, and
-    /// everything else that was asked for is so.
+    /// everything else that was asked for is so. By
+    /// [`SegmentMethod::Paper`], bounds and the Delaunay property are asked for away
+    /// from segments only.
     ///
     /// ```
     /// # use hexdel::{DVec2, Pslg};
@@ -101,11 +106,11 @@ impl PslgTriangulation {
         let c = &self.certificate;
         let broken =
             c.not_counter_clockwise + c.malformed + c.not_finite + c.repeated_edges + c.unused_vertices;
-        self.failed.is_empty()
-            && broken == 0
-            && c.delaunay
-            && c.inputs_kept == c.inputs
-            && self.segments.missing.is_empty()
+        let promised = match self.method {
+            SegmentMethod::Paper => self.failed.iter().all(|f| f.reason == Reason::Template),
+            _ => self.failed.is_empty() && c.delaunay,
+        };
+        promised && broken == 0 && c.inputs_kept == c.inputs && self.segments.missing.is_empty()
     }
 
     /// The vertex of each point given, repaired or not; `None` for a point in a

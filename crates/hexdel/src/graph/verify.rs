@@ -30,7 +30,8 @@ pub(super) fn list_all(made: &mut PslgMesh) {
             let at = (corners[0] + corners[1] + corners[2]) / 3.0;
             let angles_deg =
                 [angles.iter().copied().fold(360.0, f64::min), angles.iter().copied().fold(0.0, f64::max)];
-            made.failed.push(Exception { triangle, at, angles_deg, reason: Reason::Unsolved });
+            let reason = Reason::Unsolved;
+            made.failed.push(Exception { triangle, at, angles_deg, reason });
         }
     }
 }

@@ -147,6 +147,17 @@ impl Size {
         Self::unlimited().and_constant(size)
     }
 
+    /// Triangles no larger than `area`: edges no longer than those of the
+    /// equilateral triangle of that area, which is the largest with such edges.
+    ///
+    /// # Errors
+    ///
+    /// [`SizeError::NotPositive`].
+    pub fn area(area: f64) -> Result<Self, SizeError> {
+        let area = positive("a triangle", area)?;
+        Self::constant((4.0 * area / 3_f64.sqrt()).sqrt())
+    }
+
     /// A length wanted by a function. Its values should be positive and change
     /// no faster than the distance; the gradation does not apply to it, and it
     /// cannot be saved.

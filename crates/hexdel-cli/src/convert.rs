@@ -1,0 +1,241 @@
+//! `hexdel convert`: a mesh or points from one format to another.
+
+use crate::exit::{Failure, Outcome, Verdict, warn};
+use crate::outputs::Outputs;
+use clap::builder::PossibleValuesParser;
+use hexdel::geom::Pslg;
+use hexdel_io::{
+    MeshData, MeshFormat, PointFormat, ReadError, WriteError, holds_mesh, read_mesh_data, read_mesh_from,
+    read_points, read_points_from, write_mesh, write_mesh_to, write_points, write_points_to,
+};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Convert a mesh, or points with segments, to another format
+#[derive(clap::Args)]
+#[command(after_help = "\
+    Meshes    .ele (with .node), .vtu, .msh, .obj, .off, .mesh, .json, .ron; written only:\n          \
+    .edge, .neigh, .poly, .svg\n\
+    Points    .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron; read only: .geojson,\n          \
+    .wkt, .json of CG:SHOP\n\
+    A .node is a mesh only where the other side can be nothing else. Markers, regions and\n\
+    marked edges are kept where the format has them; what is lost is said.\n\n\
+    Examples:\n  \
+    hexdel convert mesh.ele mesh.vtu\n  \
+    hexdel convert old.msh new.msh --format msh2\n  \
+    hexdel convert borders.geojson borders.poly\n  \
+    hexdel convert mesh.vtu - --format off | less")]
+pub(crate) struct Args {
+    /// File to read, - for standard input
+    input: PathBuf,
+    /// File to write, - for standard output
+    output: PathBuf,
+    /// Format of OUTPUT, or of INPUT if only that is - [default: by extension]
+    #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
+    format: Option<String>,
+    /// Format of INPUT [default: by extension]
+    #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
+    input_format: Option<String>,
+}
+
+fn names() -> PossibleValuesParser {
+    let mut names: Vec<&str> = MeshFormat::names().chain(PointFormat::names()).collect();
+    names.sort_unstable();
+    names.dedup();
+    PossibleValuesParser::new(names)
+}
+
+/// What is converted.
+enum Content {
+    Mesh(MeshData),
+    Points(Pslg),
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &Args) -> Outcome {
+    let [input, output] = args.formats()?;
+    let mut outputs = Outputs::default();
+    if !is_stream(&args.input) {
+        outputs.protect_input(&args.input);
+    }
+    let content = args.read(&input, &output)?;
+    let holds = match &content {
+        Content::Mesh(_) => MeshFormat::from_name(&output).is_some(),
+        Content::Points(_) => PointFormat::from_name(&output).is_some(),
+    };
+    if !holds {
+        let found = if matches!(content, Content::Mesh(_)) { "a mesh" } else { "points" };
+        return Err(Failure::Conversion { file: name(&args.input, "input"), found, format: output });
+    }
+    report_losses(&content, &output, &args.output);
+    if is_stream(&args.output) {
+        return to_stdout(&content, &output);
+    }
+    // By its own extension the format writes a pair of files, or picks a delimiter.
+    let by_extension = extension(&args.output).as_deref() == Some(&output);
+    match content {
+        Content::Mesh(_) if by_extension => outputs.add_mesh(&args.output)?,
+        Content::Points(_) if by_extension => outputs.add_points(&args.output)?,
+        _ => outputs.add_text(&args.output)?,
+    }
+    outputs.write(|_, path| match &content {
+        Content::Mesh(mesh) if by_extension => Ok(write_mesh(path, &mesh.view())?),
+        Content::Points(points) if by_extension => Ok(write_points(path, points)?),
+        content => {
+            let file = File::create(path);
+            let mut file = file.map_err(|source| Failure::Output { file: path.to_owned(), source })?;
+            write_to(&mut file, content, &output, &args.output.display().to_string())
+        }
+    })?;
+    Ok(Verdict::Holds)
+}
+
+impl Args {
+    /// The names of the formats of input and output.
+    fn formats(&self) -> Result<[String; 2], Failure> {
+        let output = match (&self.format, is_stream(&self.output)) {
+            (Some(format), true) => Some(format.clone()),
+            // The format given is that of the input if only that needs one.
+            (Some(format), false) if !is_stream(&self.input) || self.input_format.is_some() => {
+                Some(format.clone())
+            }
+            (_, false) => extension(&self.output),
+            (None, true) => None,
+        };
+        let spare = self.format.as_ref().filter(|_| is_stream(&self.input) && !is_stream(&self.output));
+        let input = self.input_format.clone().or_else(|| spare.cloned()).or_else(|| extension(&self.input));
+        let known = |format: Option<String>, path: &Path, stream: &'static str, known| match format {
+            Some(format) if names_format(&format) => Ok(format),
+            _ if is_stream(path) => Err(Failure::NoFormat { stream }),
+            _ => Err(WriteError::UnknownExtension { file: path.display().to_string(), known }.into()),
+        };
+        Ok([known(input, &self.input, "input", READABLE)?, known(output, &self.output, "output", WRITABLE)?])
+    }
+
+    /// Reads the input as what the formats leave it to be.
+    fn read(&self, input: &str, output: &str) -> Result<Content, Failure> {
+        let mesh = MeshFormat::from_name(input);
+        let points = PointFormat::from_name(input);
+        let [to_mesh, to_points] =
+            [MeshFormat::from_name(output).is_some(), PointFormat::from_name(output).is_some()];
+        match (mesh, points) {
+            (Some(MeshFormat::NodeEle), Some(points)) if to_points => self.points(points),
+            (Some(mesh), Some(points)) if matches!(mesh, MeshFormat::Json | MeshFormat::Ron) => {
+                let bytes = self.bytes()?;
+                let name = name(&self.input, "input");
+                if holds_mesh(&bytes, mesh) {
+                    Ok(Content::Mesh(read_mesh_from(&bytes[..], mesh, &name)?))
+                } else {
+                    Ok(Content::Points(read_points_from(&bytes[..], points, &name)?))
+                }
+            }
+            // A graph in .poly is no mesh, though the mesh formats have one.
+            (Some(mesh), points) if to_mesh && (mesh.is_read() || points.is_none()) => self.mesh(mesh),
+            (_, Some(points)) => self.points(points),
+            (Some(mesh), None) => self.mesh(mesh),
+            (None, None) => {
+                Err(ReadError::UnknownExtension { file: name(&self.input, "input"), known: READABLE }.into())
+            }
+        }
+    }
+
+    fn mesh(&self, format: MeshFormat) -> Result<Content, Failure> {
+        let by_extension = MeshFormat::from_path(&self.input) == Some(format);
+        Ok(Content::Mesh(if by_extension && !is_stream(&self.input) {
+            read_mesh_data(&self.input)?
+        } else {
+            read_mesh_from(self.open()?, format, &name(&self.input, "input"))?
+        }))
+    }
+
+    fn points(&self, format: PointFormat) -> Result<Content, Failure> {
+        let by_extension = PointFormat::from_path(&self.input) == Some(format);
+        Ok(Content::Points(if by_extension && !is_stream(&self.input) {
+            read_points(&self.input)?
+        } else {
+            read_points_from(self.open()?, format, &name(&self.input, "input"))?
+        }))
+    }
+
+    fn open(&self) -> Result<Box<dyn BufRead>, Failure> {
+        if is_stream(&self.input) {
+            return Ok(Box::new(io::stdin().lock()));
+        }
+        match File::open(&self.input) {
+            Ok(file) => Ok(Box::new(BufReader::new(file))),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                Err(ReadError::Missing { file: name(&self.input, "input") }.into())
+            }
+            Err(source) => Err(ReadError::Io { file: name(&self.input, "input"), source }.into()),
+        }
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, Failure> {
+        let mut bytes = Vec::new();
+        let read = self.open()?.read_to_end(&mut bytes);
+        read.map_err(|source| ReadError::Io { file: name(&self.input, "input"), source })?;
+        Ok(bytes)
+    }
+}
+
+const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .poly, .csv, .tsv, .xyz, .txt, \
+    .pts, .geojson, .wkt";
+
+const WRITABLE: &str = ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg, .csv, \
+    .tsv, .xyz, .txt, .pts";
+
+fn names_format(name: &str) -> bool {
+    MeshFormat::from_name(name).is_some() || PointFormat::from_name(name).is_some()
+}
+
+fn is_stream(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// What messages call the file.
+fn name(path: &Path, stream: &str) -> String {
+    if is_stream(path) { format!("standard {stream}") } else { path.display().to_string() }
+}
+
+fn extension(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
+}
+
+/// Says what the format has no place for.
+fn report_losses(content: &Content, format: &str, output: &Path) {
+    if let (Content::Mesh(mesh), Some(format)) = (content, MeshFormat::from_name(format)) {
+        let lost = mesh.view().lost_in(format);
+        if !lost.is_empty() {
+            warn(&format!("{}: the format has no {}", name(output, "output"), lost.join(", ")));
+        }
+    }
+}
+
+fn write_to(out: &mut dyn Write, content: &Content, format: &str, name: &str) -> Result<(), Failure> {
+    match content {
+        Content::Mesh(mesh) => {
+            if let Some(format) = MeshFormat::from_name(format) {
+                write_mesh_to(out, format, &mesh.view(), name)?;
+            }
+        }
+        Content::Points(points) => {
+            if let Some(format) = PointFormat::from_name(format) {
+                write_points_to(out, format, points, name)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A reader that has seen enough and closed the pipe is no failure.
+fn to_stdout(content: &Content, format: &str) -> Outcome {
+    let mut out = io::stdout().lock();
+    match write_to(&mut out, content, format, "standard output") {
+        Err(Failure::Write(WriteError::Io { source, .. })) if source.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Stdout(source))
+        }
+        Err(Failure::Write(WriteError::Io { .. })) | Ok(()) => Ok(Verdict::Holds),
+        Err(other) => Err(other),
+    }
+}

@@ -1,0 +1,199 @@
+//! `hexdel session`: commands from a pipe, each answered with a line of JSON.
+
+mod command;
+
+use crate::exit::{Failure, Outcome, Verdict, print};
+use crate::outputs::{Content, Outputs};
+use crate::sizing::size_of_file;
+use command::{Command, SizeCommand, parse};
+use hexdel::optimize::live::Delta;
+use hexdel::{Mesher, PointId, Session, Size};
+use hexdel_io::{MeshView, write_mesh};
+use serde_json::{Value, json};
+use std::io::{self, BufRead};
+use std::path::{Path, PathBuf};
+
+/// Change a mesh by commands from standard input, answered with lines of JSON
+#[derive(clap::Args)]
+#[command(after_help = "\
+    Commands:\n  \
+    open FILE                    begin with the points of a file\n  \
+    domain X Y RADIUS            begin with an empty hexagon\n  \
+    load FILE                    go on with a saved session\n  \
+    insert X Y [X Y ..]          put points in, all or none\n  \
+    insert-file FILE             the same with the points of a file\n  \
+    remove N [N ..]              take points out, by the numbers insert gave\n  \
+    size H | none                the longest edges wanted, everywhere\n  \
+    size box X Y X Y H           .. in a box (also: polygon H X Y .., point X Y H)\n  \
+    size file FILE               .. of a raster (.asc) or of points with sizes\n  \
+    size gradation G             growth per distance of all that follows\n  \
+    refine X Y X Y K             halve the edges in a box K times\n  \
+    grow                         double the domain\n  \
+    undo                         take the last change back\n  \
+    points, counts, certify      what there is\n  \
+    mesh FILE, save FILE         write the mesh; the session, to be loaded\n  \
+    quit\n\n\
+    An answer has \"ok\", and what changed by serial numbers or the \"error\"; after an error\n\
+    the session is as it was. Exits with 2 if there was one.\n\n\
+    Example:\n  \
+    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session")]
+pub(crate) struct Args {
+    /// Answer with counts of what changed in the place of lists
+    #[arg(long)]
+    brief: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &Args) -> Outcome {
+    let mut talk = Talk { session: None, brief: args.brief };
+    let mut input = io::stdin().lock();
+    let (mut line, mut failed) = (String::new(), 0);
+    loop {
+        line.clear();
+        let answer = match input.read_line(&mut line) {
+            Ok(0) => break,
+            Ok(_) => match parse(&line) {
+                Ok(None) => continue,
+                Ok(Some(Command::Quit)) => break,
+                Ok(Some(command)) => talk.answer(command).map_err(|e| e.to_string()),
+                Err(message) => Err(message),
+            },
+            // Not text: the line has been read.
+            Err(error) if error.kind() == io::ErrorKind::InvalidData => Err("not UTF-8 text".to_owned()),
+            Err(error) => return Err(Failure::Stdin(error)),
+        };
+        failed += usize::from(answer.is_err());
+        let answer = answer.unwrap_or_else(|message| json!({ "ok": false, "error": message }));
+        print(&format!("{answer}\n"))?;
+    }
+    if failed > 0 { Err(Failure::Commands { failed }) } else { Ok(Verdict::Holds) }
+}
+
+/// Why a command was not done.
+type Refusal = Box<dyn std::error::Error>;
+
+struct Talk {
+    session: Option<Session>,
+    brief: bool,
+}
+
+impl Talk {
+    fn answer(&mut self, command: Command) -> Result<Value, Refusal> {
+        match command {
+            Command::Open(path) => {
+                let points = hexdel_io::read_points(&path)?.points;
+                self.begin(Session::new(&points, &Mesher::new())?)
+            }
+            Command::Domain(centre, radius) => self.begin(Session::empty(centre, radius)?),
+            Command::Load(path) => {
+                let text = std::fs::read_to_string(&path)
+                    .map_err(|source| Failure::Output { file: path.clone(), source })?;
+                self.begin(Session::from_ron(&text)?)
+            }
+            other => self.answer_in_session(other),
+        }
+    }
+
+    fn begin(&mut self, session: Session) -> Result<Value, Refusal> {
+        self.session = Some(session);
+        self.answer_in_session(Command::Counts)
+    }
+
+    fn answer_in_session(&mut self, command: Command) -> Result<Value, Refusal> {
+        let brief = self.brief;
+        let session = self.session.as_mut().ok_or("no session yet: begin with open, domain or load")?;
+        let outcome = match command {
+            Command::Insert(points) => session.insert_all(&points)?,
+            Command::InsertFile(path) => session.insert_all(&hexdel_io::read_points(&path)?.points)?,
+            Command::Remove(ids) => session.remove(&ids.into_iter().map(PointId).collect::<Vec<_>>())?,
+            Command::Size(size) => {
+                let size = changed(session.size().cloned(), size)?;
+                session.set_size(size)?
+            }
+            Command::Refine(a, b, halvings) => session.refine_box(a, b, halvings)?,
+            Command::Grow => session.grow()?,
+            Command::Undo => session.undo()?,
+            Command::Points => return Ok(points(session)),
+            Command::Certify => {
+                let certificate = session.certificate();
+                return Ok(json!({ "ok": true, "holds": certificate.holds(), "certificate": certificate }));
+            }
+            Command::Mesh(path) => return write(session, &path),
+            Command::Save(path) => return save(session, &path),
+            _ => return Ok(counts(session)),
+        };
+        let mut answer = counts(session);
+        answer["points_inserted"] = outcome.points.iter().map(|p| p.0).collect();
+        answer["remeshed"] = outcome.remeshed.into();
+        answer["delta"] = if brief { brief_delta(&outcome.delta) } else { json!(outcome.delta) };
+        Ok(answer)
+    }
+}
+
+fn counts(session: &Session) -> Value {
+    let [points, vertices, triangles] = session.counts();
+    let (centre, radius) = session.domain();
+    json!({
+        "ok": true, "points": points, "vertices": vertices, "triangles": triangles,
+        "centre": [centre.x, centre.y], "radius": radius,
+    })
+}
+
+fn points(session: &Session) -> Value {
+    let all: Vec<Value> = session.points().map(|(id, at)| json!([id.0, at.x, at.y])).collect();
+    json!({ "ok": true, "points": all })
+}
+
+fn brief_delta(delta: &Delta) -> Value {
+    json!({
+        "vertices_removed": delta.vertices_removed.len(),
+        "vertices_added": delta.vertices_added.len(),
+        "vertices_moved": delta.vertices_moved.len(),
+        "triangles_removed": delta.triangles_removed.len(),
+        "triangles_added": delta.triangles_added.len(),
+    })
+}
+
+/// The size with what a command adds.
+fn changed(size: Option<Size>, command: SizeCommand) -> Result<Option<Size>, Refusal> {
+    let size = size.unwrap_or_else(Size::unlimited);
+    Ok(Some(match command {
+        SizeCommand::None => return Ok(None),
+        SizeCommand::Constant(h) => size.and_constant(h)?,
+        SizeCommand::Box(a, b, h) => size.and_box(a, b, h)?,
+        SizeCommand::Polygon(h, corners) => size.and_polygon(corners, h)?,
+        SizeCommand::Point(at, h) => size.and_points(&[(at, h)])?,
+        SizeCommand::File(path) => size_of_file(size, &path)?,
+        SizeCommand::Gradation(g) => size.with_gradation(g)?,
+    }))
+}
+
+fn write(session: &Session, path: &Path) -> Result<Value, Refusal> {
+    let mut outputs = Outputs::default();
+    outputs.add_mesh(path)?;
+    let made = session.mesh();
+    let mut inputs = vec![None; made.mesh.vertices.len()];
+    for &(id, v) in &made.points {
+        inputs[v.index()] = u32::try_from(id.0).ok();
+    }
+    let certificate = session.certificate();
+    let view = MeshView::new(&made.mesh).with_input_indices(&inputs).with_certificate(&certificate);
+    outputs.write(|_, path| Ok(write_mesh(path, &view)?))?;
+    Ok(written(path))
+}
+
+fn save(session: &Session, path: &Path) -> Result<Value, Refusal> {
+    let text = session.to_ron()?;
+    let mut outputs = Outputs::default();
+    outputs.add_text(path)?;
+    outputs.write(|content, path| {
+        debug_assert_eq!(content, Content::Text);
+        let written = std::fs::write(path, &text);
+        written.map_err(|source| Failure::Output { file: PathBuf::from(path), source })
+    })?;
+    Ok(written(path))
+}
+
+fn written(path: &Path) -> Value {
+    json!({ "ok": true, "file": path.display().to_string() })
+}

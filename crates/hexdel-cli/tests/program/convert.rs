@@ -1,0 +1,104 @@
+//! `hexdel convert`.
+
+use crate::support::{Bench, fixture};
+use std::io::Write;
+use std::process::Stdio;
+
+const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0.1 1e-300 0\nf 1 2 3\n";
+
+#[test]
+fn the_help_fits_a_screen() {
+    let run = Bench::new().run("convert --help");
+    run.fine();
+    assert!(run.out.lines().count() <= 30, "{} lines", run.out.lines().count());
+    assert!(run.out.lines().all(|line| line.chars().count() <= 105), "{}", run.out);
+}
+
+#[test]
+fn a_mesh_goes_around_all_formats() {
+    let bench = Bench::new();
+    bench.file("a.obj", OBJ);
+    let around =
+        ["a.obj", "b.off", "c.vtu", "d.msh", "e.msh2", "f.mesh", "g.json", "h.ron", "i.ele", "j.obj"];
+    for pair in around.windows(2) {
+        bench.run(&format!("convert {} {}", pair[0], pair[1])).fine();
+    }
+    assert_eq!(bench.read("j.obj"), b"v 0.0 0.0 0\nv 1.0 0.0 0\nv 0.1 1e-300 0\nf 1 2 3\n");
+    // Either name of the pair, where only a mesh will do.
+    bench.run("convert i.node k.off").fine();
+    assert_eq!(bench.read("k.off"), bench.read("b.off"));
+    for name in ["l.edge", "l.neigh", "l.poly", "l.svg"] {
+        bench.run(&format!("convert d.msh {name}")).fine();
+    }
+    assert!(bench.read("l.poly").starts_with(b"3 2 0 0\n"));
+}
+
+#[test]
+fn points_and_graphs_stay_what_they_are() {
+    let bench = Bench::new();
+    let capitals = fixture("points/capitals.node");
+    for (from, to) in [
+        (capitals.as_str(), "a.json"),
+        ("a.json", "b.ron"),
+        ("b.ron", "c.csv"),
+        ("c.csv", "d.xyz"),
+        ("d.xyz", "e.node"),
+    ] {
+        bench.run(&format!("convert {from} {to}")).fine();
+    }
+    bench.run(&format!("convert {capitals} f.node")).fine();
+    assert_eq!(bench.read("e.node"), bench.read("f.node"));
+    bench.run(&format!("convert {} g.json", fixture("formats/outline.poly"))).fine();
+    bench.run("convert g.json g.poly").fine();
+    bench.run("convert g.poly h.json").fine();
+    assert_eq!(bench.read("g.json"), bench.read("h.json"));
+    bench.file("p.wkt", "POLYGON ((0 0, 4 0, 0 4, 0 0))");
+    bench.run("convert p.wkt p.poly").fine();
+    assert!(bench.read("p.poly").starts_with(b"3 2 0 1\n"));
+}
+
+#[test]
+fn standard_streams() {
+    let bench = Bench::new();
+    let mut child = bench
+        .command("convert - - --input-format obj --format off")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(OBJ.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success());
+    assert_eq!(output.stdout, b"OFF\n3 1 0\n0.0 0.0 0\n1.0 0.0 0\n0.1 1e-300 0\n3 0 1 2\n");
+    bench.file("a.obj", OBJ);
+    // The one format goes to the stream that needs it, or to the output.
+    assert!(bench.run("convert a.obj - --format json").out.starts_with("{\"vertices\": ["));
+    bench.run("convert a.obj a.msh --format msh2").fine();
+    assert!(bench.read("a.msh").starts_with(b"$MeshFormat\n2.2 0 8\n"));
+    bench.run("convert a.obj -").refused("standard output has no extension");
+    bench.run("convert - a.vtu").refused("standard input has no extension");
+    bench.run("convert a.obj - --format ele").refused("takes two files");
+}
+
+#[test]
+fn what_is_lost_is_said_and_what_cannot_be_is_refused() {
+    let bench = Bench::new();
+    bench.file(
+        "m.json",
+        r#"{"vertices": [[0, 0], [1, 0], [0, 1]], "triangles": [[0, 1, 2]], "regions": [0.5]}"#,
+    );
+    let run = bench.run("convert m.json m.off");
+    assert_eq!((run.code, run.err.as_str()), (0, "warning: m.off: the format has no regions\n"));
+    bench.run("convert m.json m.mesh").refused("region of triangle 0 is 0.5");
+    bench.run("convert m.json m.csv").refused("m.json: holds a mesh, which csv does not");
+    bench.file("p.csv", "1,2\n3,4\n");
+    bench.run("convert p.csv p.vtu").refused("p.csv: holds points, which vtu does not");
+    bench.run("convert p.csv p.wkt").refused("is read, not written");
+    bench.run("convert p.csv p.stl").refused("unknown extension");
+    bench.run("convert p.csv p.csv").refused("belongs to the input");
+    bench.run("convert none.obj p.off").refused("none.obj: no such file");
+    bench.run("convert m.off m.svg --input-format svg").refused("is written, not read");
+    bench.file("bad.obj", "v 0 0 0\nf 1 2 3\n");
+    bench.run("convert bad.obj bad.vtu").refused("bad.obj:2: no point 3");
+    assert_eq!(bench.names(), ["bad.obj", "m.json", "m.off", "p.csv"]);
+}

@@ -1,0 +1,69 @@
+//! Edges no longer than wanted, by every method, and sizes that are refused.
+
+use hexdel::io::Raster;
+use hexdel::optimize::triangle_fits;
+use hexdel::{DVec2, Error, Mesher, Method, Size, SizeError, generate};
+
+fn sizes() -> Vec<(&'static str, Size)> {
+    let raster = Raster {
+        columns: 2,
+        rows: 2,
+        low: DVec2::ZERO,
+        cell: 1.0,
+        values: vec![Some(0.05), None, Some(0.4), Some(0.2)],
+    };
+    vec![
+        ("constant", Size::constant(0.11).unwrap()),
+        ("box", Size::unlimited().and_box(DVec2::splat(0.3), DVec2::new(0.4, 0.5), 0.03).unwrap()),
+        ("points", Size::constant(0.5).unwrap().and_points(&[(DVec2::new(0.7, 0.2), 0.01)]).unwrap()),
+        ("raster", Size::unlimited().and_raster(&raster).unwrap()),
+        ("function", Size::function(|p| 0.05 + 0.2 * p.x.abs())),
+        ("area", Size::area(0.002).unwrap()),
+    ]
+}
+
+#[test]
+fn every_edge_is_as_short_as_wanted_and_every_angle_kept() {
+    let points = generate::generate(generate::Kind::Uniform, 12, 1);
+    for method in [Method::Templates, Method::Simple, Method::Compact] {
+        for (name, size) in sizes() {
+            let made = Mesher::new().method(method).size(size.clone()).triangulate(&points);
+            let made = made.unwrap_or_else(|e| panic!("{method:?}, {name}: {e}"));
+            assert!(made.certificate.holds(), "{method:?}, {name}");
+            for t in &made.mesh.triangles {
+                let corners = t.map(|v| made.mesh.vertices[v.index()]);
+                assert!(triangle_fits(&size, corners), "{method:?}, {name}: {corners:?}");
+                if name == "area" {
+                    let [a, b, c] = corners;
+                    assert!(0.5 * (b - a).perp_dot(c - a) <= 0.002 * (1.0 + 1e-8));
+                }
+            }
+            assert!(made.size_ratio.is_some_and(|r| r > 0.3), "{method:?}, {name}: {:?}", made.size_ratio);
+        }
+    }
+}
+
+#[test]
+fn sizes_that_cannot_be_had_are_refused() {
+    let points = [DVec2::ZERO, DVec2::X];
+    let refused = |size: Size| match Mesher::new().size(size).triangulate(&points) {
+        Err(Error::Size(error)) => error,
+        other => panic!("{:?}", other.map(|made| made.mesh.triangles.len())),
+    };
+    assert!(matches!(refused(Size::constant(1e-13).unwrap()), SizeError::BelowResolution { .. }));
+    assert!(matches!(refused(Size::constant(1e-6).unwrap()), SizeError::TooMany { .. }));
+    assert!(matches!(
+        refused(Size::function(|_| -1.0)),
+        SizeError::TooMany { .. } | SizeError::NotPositive { .. }
+    ));
+    let spike = Size::function(|p| if p.distance(DVec2::new(0.5, 0.1)) < 0.3 { f64::NAN } else { 1.0 });
+    assert!(matches!(refused(spike), SizeError::TooMany { .. } | SizeError::NotPositive { .. }));
+}
+
+#[test]
+fn a_size_that_asks_for_nothing_changes_nothing() {
+    let points = generate::generate(generate::Kind::Clusters, 40, 2);
+    let plain = Mesher::new().triangulate(&points).unwrap();
+    let sized = Mesher::new().size(Size::constant(1e6).unwrap()).triangulate(&points).unwrap();
+    assert_eq!(plain.mesh, sized.mesh);
+}
