@@ -46,7 +46,8 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
         .with_input_indices(&inputs)
         .with_certificate(&made.certificate)
         .with_picture(picture);
-    write(outputs, &view, &made.report())?;
+    // The dual in it takes more memory than the mesh.
+    write(outputs, &view, &args.report.is_some().then(|| made.report()))?;
     if !args.quiet {
         let distinct = inputs.iter().flatten().count();
         outputs.tell(&summary(&made, distinct))?;
