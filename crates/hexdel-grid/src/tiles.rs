@@ -67,6 +67,24 @@ impl Tile {
     }
 }
 
+/// The existing tiles of the 3 x 3 around one, and which of them a change in
+/// it reaches.
+#[derive(Clone, Copy, Debug)]
+pub struct Margin {
+    around: [TileId; 9],
+    /// A bit for each.
+    reached: u16,
+}
+
+impl Margin {
+    /// The tiles, each with whether it is reached.
+    #[inline]
+    pub fn iter(&self) -> impl Iterator<Item = (TileId, bool)> {
+        let all = self.around.into_iter().enumerate();
+        all.filter_map(|(i, tile)| Some((tile.some()?, self.reached >> i & 1 == 1)))
+    }
+}
+
 /// All tiles of all levels.
 #[derive(Clone, Debug, Default)]
 pub struct Tiles {
@@ -149,11 +167,6 @@ impl Tiles {
     #[inline]
     pub fn beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
         self.get(level, id).around[(3 * (row + 1) + column + 1) as usize].some()
-    }
-
-    /// The existing tiles among the 3 x 3 around, itself included.
-    pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
-        self.get(level, id).around.into_iter().filter_map(TileId::some)
     }
 
     /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
@@ -243,20 +256,33 @@ impl Tiles {
     }
 
     /// Makes the tiles exist whose window reaches one of `bits`, those within
-    /// [`Window::MARGIN`] hexagons, and calls `with` for each of them, the tile
-    /// itself included.
-    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64, mut with: impl FnMut(TileId)) {
-        // A bit in a half of the tile is within four hexagons of the tile
-        // beyond that half's side.
-        const LEFT: u64 = 0x0f0f_0f0f_0f0f_0f0f;
-        const LOW: u64 = 0x0000_0000_ffff_ffff;
-        for (row, rows) in [(-1, LOW), (0, u64::MAX), (1, !LOW)] {
-            for (column, columns) in [(-1, LEFT), (0, u64::MAX), (1, !LEFT)] {
-                if bits & rows & columns != 0 {
-                    with(self.require_beside(level, id, column, row));
+    /// [`Window::MARGIN`] hexagons.
+    #[inline]
+    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) -> Margin {
+        // A bit in a quarter of the tile is within four hexagons of the tile,
+        // of the two beside that quarter and of the one across its corner.
+        const QUARTERS: [(u64, u16); 4] = [
+            (0x0000_0000_0f0f_0f0f, 0b000_011_011),
+            (0x0000_0000_f0f0_f0f0, 0b000_110_110),
+            (0x0f0f_0f0f_0000_0000, 0b011_011_000),
+            (0xf0f0_f0f0_0000_0000, 0b110_110_000),
+        ];
+        let reached = QUARTERS.iter().fold(
+            0,
+            |all, (quarter, reached)| {
+                if bits & quarter == 0 { all } else { all | reached }
+            },
+        );
+        let missing = |i: usize, around: &[TileId; 9]| reached >> i & 1 == 1 && around[i] == TileId::NONE;
+        let around = self.get(level, id).around;
+        if (0..9).any(|i| missing(i, &around)) {
+            for i in 0..9 {
+                if missing(i, &self.get(level, id).around) {
+                    self.require_beside(level, id, i as i64 % 3 - 1, i as i64 / 3 - 1);
                 }
             }
         }
+        Margin { around: self.get(level, id).around, reached }
     }
 
     fn require_root(&mut self, position: (i64, i64)) -> TileId {
@@ -368,9 +394,8 @@ mod tests {
     fn margins_are_made_where_bits_reach_them() {
         let mut tiles = Tiles::default();
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
-        let mut reached = Vec::new();
-        tiles.require_margin(1, id, 1 << bit, |tile| reached.push(tile));
-        assert_eq!(reached.len(), tiles.level(1).len());
+        let reached = tiles.require_margin(1, id, 1 << bit);
+        assert_eq!(reached.iter().filter(|(_, reached)| *reached).count(), tiles.level(1).len());
         let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
         let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
         let mut made_sorted = made;

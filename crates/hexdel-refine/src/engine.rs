@@ -65,6 +65,8 @@ pub struct Refiner {
     /// Per level: tiles with a neighbour that changed since the level was last
     /// looked over for what can be merged; all of `unprojected` are in here.
     loose: Vec<Queue>,
+    /// Points whose hexagon was subdivided: to be moved down.
+    moving: Queue,
     /// Tiles asked so far, for progress.
     asked: u64,
 }
@@ -87,6 +89,7 @@ impl Refiner {
             open: Vec::new(),
             unprojected: Vec::new(),
             loose: Vec::new(),
+            moving: Queue::default(),
             asked: 0,
         }
     }
@@ -153,13 +156,12 @@ impl Refiner {
         hexagons: impl IntoIterator<Item = Address>,
         monitor: &dyn Monitor,
     ) -> Result<(), RefineError> {
-        let mut moving = Vec::new();
         for at in hexagons {
             let (id, bit) = self.grid.tile_of(at);
             self.grid.tiles_mut().get_mut(at.level, id).needed |= 1 << bit;
-            self.subdivide(at.level, id, 1 << bit, &mut moving);
+            self.subdivide(at.level, id, 1 << bit);
         }
-        self.sink(moving)?;
+        self.sink()?;
         self.close(monitor)
     }
 
@@ -169,25 +171,21 @@ impl Refiner {
         let mut level = 0;
         while !moving.is_empty() {
             check(monitor)?;
-            let mut next = Vec::new();
-            self.occupy_all(&moving, &mut next);
+            self.occupy_all(&moving);
             // Only points can be in conflict yet; what else the rules want is
             // asked again when all points have settled.
             while let Some(queue) = self.open.get_mut(level).filter(|q| !q.is_empty()) {
-                let tiles = queue.take();
+                let tiles = queue.take(TileId::new);
                 let occupied = |id| {
                     let tile = self.grid.tiles().get(level as u8, id);
                     tile.marks[0] | tile.marks[1]
                 };
                 let tiles: Vec<_> = tiles.into_iter().filter(|&id| occupied(id) != 0).collect();
-                for (id, bits) in self.ask(level as u8, tiles) {
-                    let tile = self.grid.tiles().get(level as u8, id);
-                    let occupied = tile.marks[0] | tile.marks[1];
-                    self.subdivide(level as u8, id, bits & occupied, &mut next);
+                for (id, bits) in self.ask(level as u8, tiles, RuleSet::must_subdivide_occupied) {
+                    self.subdivide(level as u8, id, bits);
                 }
             }
-            next.sort_unstable();
-            moving = next;
+            moving = self.take_moving();
             self.descend(&moving)?;
             level += 1;
         }
@@ -215,35 +213,41 @@ impl Refiner {
 
     /// Asks the open tiles of a level once and subdivides what they want.
     fn round(&mut self, level: u8) -> Result<(), RefineError> {
-        let tiles = self.open[usize::from(level)].take();
-        let mut moving = Vec::new();
-        for (id, bits) in self.ask(level, tiles) {
-            self.subdivide(level, id, bits, &mut moving);
+        let tiles = self.open[usize::from(level)].take(TileId::new);
+        for (id, bits) in self.ask(level, tiles, RuleSet::must_subdivide) {
+            self.subdivide(level, id, bits);
         }
-        self.sink(moving)
+        self.sink()
     }
 
     /// Moves points whose hexagon was subdivided down to the next leaf.
-    fn sink(&mut self, mut moving: Vec<u32>) -> Result<(), RefineError> {
-        while !moving.is_empty() {
-            moving.sort_unstable();
+    fn sink(&mut self) -> Result<(), RefineError> {
+        while !self.moving.is_empty() {
+            let moving = self.take_moving();
             self.descend(&moving)?;
-            let mut next = Vec::new();
-            self.occupy_all(&moving, &mut next);
-            moving = next;
+            self.occupy_all(&moving);
         }
         Ok(())
     }
 
+    fn take_moving(&mut self) -> Vec<u32> {
+        self.moving.take(|id| id as u32)
+    }
+
     /// The hexagons that the rules want subdivided, by tile.
-    fn ask(&mut self, level: u8, tiles: Vec<TileId>) -> Vec<(TileId, u64)> {
+    fn ask(
+        &mut self,
+        level: u8,
+        tiles: Vec<TileId>,
+        wanted: fn(&RuleSet, &Situation) -> u64,
+    ) -> Vec<(TileId, u64)> {
         self.asked += tiles.len() as u64;
         let ask = |id| {
             let view = View::of(&self.grid, level, id);
             if view.is_empty() {
                 return (id, 0);
             }
-            (id, self.rules.must_subdivide(&Situation::of(view)))
+            (id, wanted(&self.rules, &Situation::of(view)))
         };
         let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
         tiles.map(ask).filter(|(_, bits)| *bits != 0).collect()
@@ -252,14 +256,14 @@ impl Refiner {
     /// Merges what a closed level has to spare.
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
-            let tiles = self.loose[usize::from(level)].take();
+            let tiles = self.loose[usize::from(level)].take(TileId::new);
             coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
         }
     }
 
     /// Passes the demands of a level on to the next coarser one.
     fn project(&mut self, level: u8) -> Result<(), RefineError> {
-        let tiles = self.unprojected[usize::from(level)].take();
+        let tiles = self.unprojected[usize::from(level)].take(TileId::new);
         let Some(coarser) = level.checked_sub(1) else {
             return Ok(());
         };
@@ -276,36 +280,35 @@ impl Refiner {
         };
         let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
         let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| *d != 0).collect();
-        let mut moving = Vec::new();
         for (id, demand) in demands {
             let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
             let bits = in_quadrant(demand, quadrant);
             let tile = self.grid.tiles_mut().get_mut(coarser, parent);
             tile.needed |= bits;
-            self.subdivide(coarser, parent, bits, &mut moving);
+            self.subdivide(coarser, parent, bits);
         }
-        self.sink(moving)
+        self.sink()
     }
 
-    /// Subdivides hexagons of a tile. The points that occupy them are added to
-    /// `moving`.
-    fn subdivide(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) {
-        let subdivided = self.mark_subdivided(level, id, bits, moving);
+    /// Subdivides hexagons of a tile. The points that occupy them are to be
+    /// moved.
+    fn subdivide(&mut self, level: u8, id: TileId, bits: u64) {
+        let subdivided = self.mark_subdivided(level, id, bits);
         if subdivided != 0 {
             self.changed(level, id, subdivided);
         }
     }
 
     /// The same without noting the change; returns what was not subdivided yet.
-    fn mark_subdivided(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) -> u64 {
+    fn mark_subdivided(&mut self, level: u8, id: TileId, bits: u64) -> u64 {
         let tile = self.grid.tiles_mut().get_mut(level, id);
         let bits = bits & !tile.subdivided;
         tile.subdivided |= bits;
         let occupied = bits & (tile.marks[0] | tile.marks[1]);
         tile.marks = tile.marks.map(|plane| plane & !bits);
         for bit in ones(occupied) {
-            let site = self.sites.leave(level, id, bit);
-            moving.push(site.expect("a marked hexagon has an occupant"));
+            let site = self.sites.leave(level, id, bit).expect("a marked hexagon has an occupant");
+            self.moving.push(site as usize);
         }
         bits
     }
@@ -315,10 +318,7 @@ impl Refiner {
         let (lattice, levels) = (*self.grid.lattice(), Grid::MAX_LEVELS);
         // As many at once as the cache holds.
         for some in moving.chunks(SITES_AT_ONCE) {
-            let lower = |&id: &u32| {
-                let s = self.sites.get(id);
-                Site::new(&lattice, s.level + 1, s.point)
-            };
+            let lower = |&id: &u32| self.sites.get(id).below(&lattice);
             let lowered: Vec<_> = some.par_iter().with_min_len(TILES_PER_TASK).map(lower).collect();
             for (&id, site) in some.iter().zip(lowered) {
                 if site.level >= levels {
@@ -333,7 +333,7 @@ impl Refiner {
 
     /// Lets points occupy their hexagons. If one is subdivided its point moves
     /// on, if it is occupied both do.
-    fn occupy_all(&mut self, sites: &[u32], moving: &mut Vec<u32>) {
+    fn occupy_all(&mut self, sites: &[u32]) {
         // Points come along a curve: the next one's tile is near the last's,
         // and mostly the same. What changed in it is noted once.
         let mut last: Option<(u8, TileId, u64)> = None;
@@ -341,14 +341,14 @@ impl Refiner {
         for &id in sites {
             let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
             if passed == Some((level, hex)) {
-                moving.push(id);
+                self.moving.push(id as usize);
                 continue;
             }
             let (tile, bit) = match last.filter(|&(l, _, _)| l == level) {
                 Some((_, near, _)) => self.grid.tiles_mut().require_near(level, near, hex),
                 None => self.grid.tile_of(Address::new(level, hex)),
             };
-            let changed = self.occupy(id, (tile, bit), moving);
+            let changed = self.occupy(id, (tile, bit));
             if self.grid.tiles().get(level, tile).subdivided >> bit & 1 == 1 {
                 passed = Some((level, hex));
             }
@@ -361,18 +361,20 @@ impl Refiner {
     }
 
     /// Returns what changed in the tile: the point's hexagon, or nothing.
-    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32), moving: &mut Vec<u32>) -> u64 {
-        let level = self.sites.get(site).level;
-        let tile = self.grid.tiles_mut().get_mut(level, id);
+    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32)) -> u64 {
+        let Site { level, point, .. } = *self.sites.get(site);
+        let tile = self.grid.tiles().get(level, id);
         if tile.subdivided >> bit & 1 == 1 {
-            moving.push(site);
+            self.moving.push(site as usize);
             return 0;
         }
         if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
-            moving.push(site);
-            return self.mark_subdivided(level, id, 1 << bit, moving);
+            self.moving.push(site as usize);
+            return self.mark_subdivided(level, id, 1 << bit);
         }
-        tile.marks[self.sites.get(site).plane()] |= 1 << bit;
+        let exact = Site::new(self.grid.lattice(), level, point);
+        self.grid.tiles_mut().get_mut(level, id).marks[exact.plane()] |= 1 << bit;
+        *self.sites.get_mut(site) = exact;
         self.sites.enter(site, id);
         1 << bit
     }
@@ -393,12 +395,13 @@ impl Refiner {
             self.loose.resize_with(k + 1, Queue::default);
         }
         let (open, unprojected) = (&mut self.open[k], &mut self.unprojected[k]);
-        self.grid.tiles_mut().require_margin(level, id, bits, |tile| {
-            open.push(tile);
-            unprojected.push(tile);
-        });
-        for tile in self.grid.tiles().around(level, id) {
-            self.loose[k].push(tile);
+        let loose = &mut self.loose[k];
+        for (tile, reached) in self.grid.tiles_mut().require_margin(level, id, bits).iter() {
+            loose.push(tile.index());
+            if reached {
+                open.push(tile.index());
+                unprojected.push(tile.index());
+            }
         }
     }
 

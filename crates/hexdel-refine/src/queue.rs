@@ -1,12 +1,11 @@
-//! Tiles that wait for their turn.
+//! Tiles, or points, that wait for their turn.
 
-use hexdel_grid::TileId;
 use hexdel_grid::window::ones;
 
-/// A set of tiles of one level, taken in the order of their ids.
+/// A set of tiles of one level, or of points, by their ids; taken in order.
 #[derive(Clone, Debug)]
 pub(crate) struct Queue {
-    /// A bit per tile id; clear beyond the end.
+    /// A bit per id; clear beyond the end.
     words: Vec<u64>,
     /// All words that are not zero lie from here ..
     start: usize,
@@ -23,8 +22,8 @@ impl Default for Queue {
 
 impl Queue {
     #[inline]
-    pub(crate) fn push(&mut self, id: TileId) {
-        let (word, bit) = (id.index() / 64, id.index() % 64);
+    pub(crate) fn push(&mut self, id: usize) {
+        let (word, bit) = (id / 64, id % 64);
         if word >= self.words.len() {
             // As a vector grows: the level's tiles are made one by one.
             self.words.resize((word + 1).next_power_of_two(), 0);
@@ -37,20 +36,15 @@ impl Queue {
         self.end == 0
     }
 
-    /// The tiles, in order.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = TileId> {
-        let words = (self.start..self.end).map(|word| (64 * word, self.words[word]));
-        words.flat_map(|(first, word)| ones(word).map(move |bit| TileId::new(first + bit as usize)))
-    }
-
     /// Empties the queue; in order.
-    pub(crate) fn take(&mut self) -> Vec<TileId> {
-        let tiles = self.iter().collect();
-        if !self.is_empty() {
-            self.words[self.start..self.end].fill(0);
-            (self.start, self.end) = (usize::MAX, 0);
+    pub(crate) fn take<T>(&mut self, id: impl Fn(usize) -> T) -> Vec<T> {
+        let mut all = Vec::new();
+        for word in self.start..self.end {
+            let bits = std::mem::take(&mut self.words[word]);
+            all.extend(ones(bits).map(|bit| id(64 * word + bit as usize)));
         }
-        tiles
+        (self.start, self.end) = (usize::MAX, 0);
+        all
     }
 }
 
@@ -59,16 +53,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiles_come_once_and_in_order() {
+    fn ids_come_once_and_in_order() {
         let mut queue = Queue::default();
         assert!(queue.is_empty());
         for i in [700, 3, 64, 3, 65, 0] {
-            queue.push(TileId::new(i));
+            queue.push(i);
         }
         assert!(!queue.is_empty());
-        let taken: Vec<_> = queue.take().into_iter().map(TileId::index).collect();
-        assert_eq!(taken, [0, 3, 64, 65, 700]);
+        assert_eq!(queue.take(|id| id), [0, 3, 64, 65, 700]);
         assert!(queue.is_empty());
-        assert!(queue.take().is_empty());
+        assert!(queue.take(|id| id).is_empty());
     }
 }

@@ -14,7 +14,8 @@ pub struct Site {
     pub point: DVec2,
     /// The level of the leaf it occupies.
     pub level: u8,
-    /// That leaf, and where in it the point lies.
+    /// That leaf, and where in it the point lies: to the last places once it
+    /// occupies the leaf.
     pub at: Located,
 }
 
@@ -22,6 +23,12 @@ impl Site {
     /// A point in the hexagon of a level that holds it.
     pub fn new(lattice: &Lattice, level: u8, point: DVec2) -> Self {
         Self { point, level, at: lattice.locate(level, point) }
+    }
+
+    /// The same point one level down.
+    pub fn below(&self, lattice: &Lattice) -> Self {
+        let at = lattice.locate_below(self.level, &self.at, self.point);
+        Self { point: self.point, level: self.level + 1, at }
     }
 
     /// The plane of tile marks that the hexagon belongs to: class `Occupied1`
