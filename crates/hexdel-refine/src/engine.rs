@@ -16,9 +16,9 @@
 //! proportion to what changes: near-linear in the output.
 
 use crate::coarsen;
-use crate::queue::Queue;
+use crate::queue::Queues;
 use crate::rule::{RuleSet, Situation};
-use crate::sites::{Site, Sites};
+use crate::sites::Sites;
 use hexdel_classify::{Occupant, View};
 use hexdel_geom::DVec2;
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
@@ -57,19 +57,23 @@ pub struct Refiner {
     /// All points. Each occupies a leaf of its level, whose mark is set, except
     /// while it descends.
     sites: Sites,
-    /// Per level: tiles whose rules must be asked again.
-    open: Vec<Queue>,
-    /// Per level: tiles whose demands on the next coarser level may have
-    /// grown.
-    unprojected: Vec<Queue>,
-    /// Per level: tiles with a neighbour that changed since the level was last
-    /// looked over for what can be merged; all of `unprojected` are in here.
-    loose: Vec<Queue>,
+    /// Per level: the tiles that are [`OPEN`], [`UNPROJECTED`] and [`LOOSE`].
+    waiting: Vec<Queues<3>>,
     /// Points whose hexagon was subdivided: to be moved down.
-    moving: Queue,
+    moving: Queues<1>,
     /// Tiles asked so far, for progress.
     asked: u64,
 }
+
+/// Tiles whose rules must be asked again.
+const OPEN: usize = 0;
+
+/// Tiles whose demands on the next coarser level may have grown.
+const UNPROJECTED: usize = 1;
+
+/// Tiles with a neighbour that changed since the level was last looked over
+/// for what can be merged; all that are unprojected are loose.
+const LOOSE: usize = 2;
 
 /// Fewer tiles than this are asked at once by one thread: handing them out
 /// would take longer.
@@ -86,10 +90,8 @@ impl Refiner {
             rules,
             coarsening: true,
             sites: Sites::default(),
-            open: Vec::new(),
-            unprojected: Vec::new(),
-            loose: Vec::new(),
-            moving: Queue::default(),
+            waiting: Vec::new(),
+            moving: Queues::default(),
             asked: 0,
         }
     }
@@ -113,7 +115,7 @@ impl Refiner {
 
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
-        self.sites.occupants()
+        self.sites.occupants(self.grid.lattice())
     }
 
     /// How many times the rules were asked about a tile so far, or what it
@@ -174,8 +176,8 @@ impl Refiner {
             self.occupy_all(&moving);
             // Only points can be in conflict yet; what else the rules want is
             // asked again when all points have settled.
-            while let Some(queue) = self.open.get_mut(level).filter(|q| !q.is_empty()) {
-                let tiles = queue.take(TileId::new);
+            while let Some(queues) = self.waiting.get_mut(level).filter(|q| !q.is_empty(OPEN)) {
+                let tiles = queues.take(OPEN, TileId::new);
                 let occupied = |id| {
                     let tile = self.grid.tiles().get(level as u8, id);
                     tile.marks[0] | tile.marks[1]
@@ -189,18 +191,18 @@ impl Refiner {
             self.descend(&moving)?;
             level += 1;
         }
-        for level in 0..self.unprojected.len() {
-            self.open[level] = self.unprojected[level].clone();
+        for queues in &mut self.waiting {
+            queues.copy(UNPROJECTED, OPEN);
         }
         Ok(())
     }
 
     /// Closes and projects levels, finest first.
     fn close(&mut self, monitor: &dyn Monitor) -> Result<(), RefineError> {
-        let pending = |queues: &[Queue]| queues.iter().rposition(|q| !q.is_empty());
-        while let Some(level) = pending(&self.open).max(pending(&self.unprojected)) {
+        let pending = |q: &Queues<3>| !q.is_empty(OPEN) || !q.is_empty(UNPROJECTED);
+        while let Some(level) = self.waiting.iter().rposition(pending) {
             check(monitor)?;
-            if self.open[level].is_empty() {
+            if self.waiting[level].is_empty(OPEN) {
                 self.coarsen(level as u8);
                 self.project(level as u8)?;
             } else {
@@ -213,7 +215,7 @@ impl Refiner {
 
     /// Asks the open tiles of a level once and subdivides what they want.
     fn round(&mut self, level: u8) -> Result<(), RefineError> {
-        let tiles = self.open[usize::from(level)].take(TileId::new);
+        let tiles = self.waiting[usize::from(level)].take(OPEN, TileId::new);
         for (id, bits) in self.ask(level, tiles, RuleSet::must_subdivide) {
             self.subdivide(level, id, bits);
         }
@@ -222,7 +224,7 @@ impl Refiner {
 
     /// Moves points whose hexagon was subdivided down to the next leaf.
     fn sink(&mut self) -> Result<(), RefineError> {
-        while !self.moving.is_empty() {
+        while !self.moving.is_empty(0) {
             let moving = self.take_moving();
             self.descend(&moving)?;
             self.occupy_all(&moving);
@@ -231,7 +233,7 @@ impl Refiner {
     }
 
     fn take_moving(&mut self) -> Vec<u32> {
-        self.moving.take(|id| id as u32)
+        self.moving.take(0, |id| id as u32)
     }
 
     /// The hexagons that the rules want subdivided, by tile.
@@ -256,14 +258,14 @@ impl Refiner {
     /// Merges what a closed level has to spare.
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
-            let tiles = self.loose[usize::from(level)].take(TileId::new);
+            let tiles = self.waiting[usize::from(level)].take(LOOSE, TileId::new);
             coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
         }
     }
 
     /// Passes the demands of a level on to the next coarser one.
     fn project(&mut self, level: u8) -> Result<(), RefineError> {
-        let tiles = self.unprojected[usize::from(level)].take(TileId::new);
+        let tiles = self.waiting[usize::from(level)].take(UNPROJECTED, TileId::new);
         let Some(coarser) = level.checked_sub(1) else {
             return Ok(());
         };
@@ -308,7 +310,7 @@ impl Refiner {
         tile.marks = tile.marks.map(|plane| plane & !bits);
         for bit in ones(occupied) {
             let site = self.sites.leave(level, id, bit).expect("a marked hexagon has an occupant");
-            self.moving.push(site as usize);
+            self.moving.push(site as usize, [true]);
         }
         bits
     }
@@ -341,7 +343,7 @@ impl Refiner {
         for &id in sites {
             let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
             if passed == Some((level, hex)) {
-                self.moving.push(id as usize);
+                self.moving.push(id as usize, [true]);
                 continue;
             }
             let (tile, bit) = match last.filter(|&(l, _, _)| l == level) {
@@ -362,19 +364,18 @@ impl Refiner {
 
     /// Returns what changed in the tile: the point's hexagon, or nothing.
     fn occupy(&mut self, site: u32, (id, bit): (TileId, u32)) -> u64 {
-        let Site { level, point, .. } = *self.sites.get(site);
+        let level = self.sites.get(site).level;
         let tile = self.grid.tiles().get(level, id);
         if tile.subdivided >> bit & 1 == 1 {
-            self.moving.push(site as usize);
+            self.moving.push(site as usize, [true]);
             return 0;
         }
         if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
-            self.moving.push(site as usize);
+            self.moving.push(site as usize, [true]);
             return self.mark_subdivided(level, id, 1 << bit);
         }
-        let exact = Site::new(self.grid.lattice(), level, point);
-        self.grid.tiles_mut().get_mut(level, id).marks[exact.plane()] |= 1 << bit;
-        *self.sites.get_mut(site) = exact;
+        let plane = self.sites.get(site).plane(self.grid.lattice());
+        self.grid.tiles_mut().get_mut(level, id).marks[plane] |= 1 << bit;
         self.sites.enter(site, id);
         1 << bit
     }
@@ -389,19 +390,12 @@ impl Refiner {
     /// asked again.
     fn changed(&mut self, level: u8, id: TileId, bits: u64) {
         let k = usize::from(level);
-        if k >= self.open.len() {
-            self.open.resize_with(k + 1, Queue::default);
-            self.unprojected.resize_with(k + 1, Queue::default);
-            self.loose.resize_with(k + 1, Queue::default);
+        if k >= self.waiting.len() {
+            self.waiting.resize_with(k + 1, Queues::default);
         }
-        let (open, unprojected) = (&mut self.open[k], &mut self.unprojected[k]);
-        let loose = &mut self.loose[k];
+        let queues = &mut self.waiting[k];
         for (tile, reached) in self.grid.tiles_mut().require_margin(level, id, bits).iter() {
-            loose.push(tile.index());
-            if reached {
-                open.push(tile.index());
-                unprojected.push(tile.index());
-            }
+            queues.push(tile.index(), [reached, reached, true]);
         }
     }
 

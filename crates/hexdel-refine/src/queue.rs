@@ -2,49 +2,58 @@
 
 use hexdel_grid::window::ones;
 
-/// A set of tiles of one level, or of points, by their ids; taken in order.
+/// Several sets of ids, of which each is taken in order.
 #[derive(Clone, Debug)]
-pub(crate) struct Queue {
-    /// A bit per id; clear beyond the end.
-    words: Vec<u64>,
-    /// All words that are not zero lie from here ..
-    start: usize,
-    /// .. to before here; if there are none, this is 0 and the start is the
-    /// largest of numbers, such that a word more is a minimum and a maximum.
-    end: usize,
+pub(crate) struct Queues<const N: usize> {
+    /// A bit per id, of each set.
+    words: Vec<[u64; N]>,
+    /// Which of the sets may hold something.
+    any: [bool; N],
 }
 
-impl Default for Queue {
+impl<const N: usize> Default for Queues<N> {
     fn default() -> Self {
-        Self { words: Vec::new(), start: usize::MAX, end: 0 }
+        Self { words: Vec::new(), any: [false; N] }
     }
 }
 
-impl Queue {
+impl<const N: usize> Queues<N> {
+    /// Adds an id to some of the sets.
     #[inline]
-    pub(crate) fn push(&mut self, id: usize) {
+    pub(crate) fn push(&mut self, id: usize, to: [bool; N]) {
         let (word, bit) = (id / 64, id % 64);
         if word >= self.words.len() {
-            // As a vector grows: the level's tiles are made one by one.
-            self.words.resize((word + 1).next_power_of_two(), 0);
+            // As a vector grows: ids are made one by one.
+            self.words.resize((word + 1).next_power_of_two(), [0; N]);
         }
-        self.words[word] |= 1 << bit;
-        (self.start, self.end) = (self.start.min(word), self.end.max(word + 1));
+        for (set, to) in to.into_iter().enumerate() {
+            self.words[word][set] |= u64::from(to) << bit;
+            self.any[set] |= to;
+        }
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.end == 0
+    pub(crate) fn is_empty(&self, set: usize) -> bool {
+        !self.any[set]
     }
 
-    /// Empties the queue; in order.
-    pub(crate) fn take<T>(&mut self, id: impl Fn(usize) -> T) -> Vec<T> {
+    /// Empties a set; in order.
+    pub(crate) fn take<T>(&mut self, set: usize, id: impl Fn(usize) -> T) -> Vec<T> {
         let mut all = Vec::new();
-        for word in self.start..self.end {
-            let bits = std::mem::take(&mut self.words[word]);
-            all.extend(ones(bits).map(|bit| id(64 * word + bit as usize)));
+        if std::mem::take(&mut self.any[set]) {
+            for (first, words) in (0..).step_by(64).zip(&mut self.words) {
+                let bits = std::mem::take(&mut words[set]);
+                all.extend(ones(bits).map(|bit| id(first + bit as usize)));
+            }
         }
-        (self.start, self.end) = (usize::MAX, 0);
         all
+    }
+
+    /// Makes one set equal to another.
+    pub(crate) fn copy(&mut self, from: usize, to: usize) {
+        for words in &mut self.words {
+            words[to] = words[from];
+        }
+        self.any[to] = self.any[from];
     }
 }
 
@@ -54,14 +63,16 @@ mod tests {
 
     #[test]
     fn ids_come_once_and_in_order() {
-        let mut queue = Queue::default();
-        assert!(queue.is_empty());
+        let mut queues = Queues::<2>::default();
         for i in [700, 3, 64, 3, 65, 0] {
-            queue.push(i);
+            queues.push(i, [i > 3, true]);
         }
-        assert!(!queue.is_empty());
-        assert_eq!(queue.take(|id| id), [0, 3, 64, 65, 700]);
-        assert!(queue.is_empty());
-        assert!(queue.take(|id| id).is_empty());
+        assert!(!queues.is_empty(0) && !queues.is_empty(1));
+        assert_eq!(queues.take(1, |id| id), [0, 3, 64, 65, 700]);
+        assert!(queues.is_empty(1) && queues.take(1, |id| id).is_empty());
+        queues.copy(0, 1);
+        for set in 0..2 {
+            assert_eq!(queues.take(set, |id| id), [64, 65, 700]);
+        }
     }
 }
