@@ -153,15 +153,16 @@ impl<'a> Rules<'a> {
     /// them.
     #[inline]
     pub(crate) fn is_good(&self, mesh: &Mesh, t: u32) -> bool {
-        let place = mesh.place(t);
-        self.is_within(place, mesh.measure(t))
+        self.is_within(mesh.place(t), mesh.tri[t as usize].v.map(|v| mesh.pos[v as usize]))
     }
 
     /// Whether a triangle at such a place keeps its bounds.
     #[inline]
-    pub(crate) fn is_within(&self, place: Place, m: Measure) -> bool {
+    pub(crate) fn is_within(&self, place: Place, corners: [DVec2; 3]) -> bool {
         let limits = self.limits(place);
-        limits.loose(&place.view(m, limits))
+        let [a, b, c] = corners;
+        let m = place.view(Measure::of(a, b, c), limits);
+        limits.loose(&m) || limits.granted(&m, corners)
     }
 
     /// Whether a triangle is no larger than it may be.
