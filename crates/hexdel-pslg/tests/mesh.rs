@@ -4,23 +4,11 @@ mod support;
 
 use hexdel_geom::{AngleBounds, DVec2, Pslg, Region, Unwatched, quality};
 use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, Reason, mesh, repair, validate};
+use support::{append, chain};
 
 fn made(pslg: &Pslg, options: &Options) -> PslgMesh {
     let valid = validate(pslg).expect("the graph is planar");
     mesh(&valid, options, &Unwatched).expect("the graph can be meshed")
-}
-
-fn chain(points: &[(f64, f64)], closed: bool) -> Pslg {
-    let mut pslg = Pslg::from_points(points.iter().map(|&(x, y)| DVec2::new(x, y)).collect());
-    let n = points.len() as u32;
-    pslg.segments = (0..n - u32::from(!closed)).map(|i| [i, (i + 1) % n]).collect();
-    pslg
-}
-
-fn append(to: &mut Pslg, other: &Pslg) {
-    let base = to.points.len() as u32;
-    to.points.extend(&other.points);
-    to.segments.extend(other.segments.iter().map(|s| s.map(|p| p + base)));
 }
 
 fn square(at: f64, side: f64) -> Pslg {

@@ -86,14 +86,14 @@ pub fn family(name: &str, seed: u64) -> Pslg {
     pslg
 }
 
-fn chain(points: &[DVec2], closed: bool) -> Pslg {
-    let mut pslg = Pslg::from_points(points.to_vec());
+pub(crate) fn chain<P: Copy + Into<DVec2>>(points: &[P], closed: bool) -> Pslg {
+    let mut pslg = Pslg::from_points(points.iter().map(|&p| p.into()).collect());
     let n = points.len() as u32;
     pslg.segments = (0..n - u32::from(!closed)).map(|i| [i, (i + 1) % n]).collect();
     pslg
 }
 
-fn append(to: &mut Pslg, other: &Pslg) {
+pub(crate) fn append(to: &mut Pslg, other: &Pslg) {
     let base = to.points.len() as u32;
     to.points.extend(&other.points);
     to.segments.extend(other.segments.iter().map(|s| s.map(|p| p + base)));
