@@ -78,7 +78,7 @@ pub fn read_points_from(reader: impl BufRead, format: PointFormat, name: &str) -
         PointFormat::Poly => triangle::read_poly(reader, name, |line| {
             Err(ReadError::PointsElsewhere { file: name.to_owned(), line })
         }),
-        PointFormat::Table => table::read_table(reader, name),
+        PointFormat::Table | PointFormat::Csv | PointFormat::Tsv => table::read_table(reader, name),
         PointFormat::Wkt => wkt::read_wkt(reader, name),
         PointFormat::GeoJson => read_all(geojson::read_geojson, reader),
         PointFormat::Json => read_all(graph_json::read_any_json, reader),

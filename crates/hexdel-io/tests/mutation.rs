@@ -91,7 +91,7 @@ fn pointed(format: &str) -> Vec<u8> {
         regions: Vec::new(),
         ..graph()
     };
-    let graph = if matches!(format, PointFormat::Node | PointFormat::Table) { plain } else { graph() };
+    let graph = if matches!(format, PointFormat::Node | PointFormat::Csv) { plain } else { graph() };
     write_points_to(&mut out, format, &graph, "s").unwrap();
     out
 }
