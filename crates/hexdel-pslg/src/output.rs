@@ -13,7 +13,8 @@ use crate::validate::{Piece, Validated};
 use hexdel_geom::delaunay::restore_constrained_delaunay;
 use hexdel_geom::monitor::{Monitor, check};
 use hexdel_geom::{
-    AngleBounds, CertifyOptions, DVec2, Pslg, TriMesh, TriangleId, VertexId, certify, quality, settle_rounding,
+    AngleBounds, CertifyOptions, DVec2, Pslg, TriMesh, TriangleId, VertexId, certify, quality,
+    settle_rounding,
 };
 use rustc_hash::FxHashSet;
 
