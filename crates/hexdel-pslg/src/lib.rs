@@ -60,6 +60,8 @@ pub use error::{Feature, PslgError, ValidateError};
 pub use hexdel_optimize::Effort;
 pub use mesher::mesh;
 pub use options::{Extent, Options, SegmentMethod};
+pub use output::vertex_markers;
 pub use repair::{Repair, RepairReport, repair};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
+pub use sectors::hopeless_pairs;
 pub use validate::{Divided, Validated, validate, violations};

@@ -9,7 +9,7 @@ use crate::fit::judge::{Judge, Wedges};
 use crate::fit::optimise;
 use crate::hull::with_hull;
 use crate::net::Net;
-use crate::options::{Extent, Options, SegmentMethod};
+use crate::options::{Deadline, Extent, Options, SegmentMethod};
 use crate::output::{self, Parts};
 use crate::paper;
 use crate::result::PslgMesh;
@@ -85,23 +85,22 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     }
     let mesher = Mesher::new(input, options);
     let mut demands = Vec::new();
-    let mut best: Option<(usize, Net)> = None;
-    let mut attempt = 0;
-    loop {
+    let mut retries = 0;
+    let mut best = mesher.compacted(mesher.attempt(&demands, monitor)?, monitor)?;
+    let mut left = mesher.left(&best);
+    while !left.elsewhere.is_empty() && retries < options.retries && !mesher.deadline.is_over() {
+        demands.extend(left.elsewhere.iter().map(|&t| demand_at(&best, t)));
+        retries += 1;
         let net = mesher.compacted(mesher.attempt(&demands, monitor)?, monitor)?;
-        let left = mesher.left(&net);
-        demands.extend(left.elsewhere.iter().map(|&t| demand_at(&net, t)));
-        if best.as_ref().is_none_or(|(least, _)| left.score() < *least) {
-            best = Some((left.score(), net));
-        }
-        if left.elsewhere.is_empty() || attempt == options.retries {
+        let now = mesher.left(&net);
+        // What one more level has not helped is not for the next to help.
+        if now.score() >= left.score() {
             break;
         }
-        attempt += 1;
+        (best, left) = (net, now);
     }
-    let (_, net) = best.expect("the first attempt is the best of one at least");
     check(monitor)?;
-    mesher.finished(net, attempt, monitor)
+    mesher.finished(best, retries, monitor)
 }
 
 /// Triangles that are not as they should be.
@@ -139,6 +138,7 @@ struct Mesher<'a> {
     sectors: Vec<Sector>,
     wedges: Wedges,
     areas: Option<AreaLimits<'a>>,
+    deadline: Deadline,
 }
 
 impl<'a> Mesher<'a> {
@@ -158,6 +158,7 @@ impl<'a> Mesher<'a> {
             sectors,
             wedges,
             areas,
+            deadline: Deadline::after(options.budget),
         }
     }
 
@@ -206,6 +207,7 @@ impl<'a> Mesher<'a> {
             judge: self.judge(),
             areas: self.areas.as_ref(),
             strict,
+            deadline: &self.deadline,
         }
     }
 
@@ -218,9 +220,10 @@ impl<'a> Mesher<'a> {
             sectors: &self.sectors,
             judge: self.judge(),
             method: self.options.method,
+            deadline: &self.deadline,
         };
         let made = output::finish(net.clone(), &parts, retries, monitor)?;
-        if made.certificate.delaunay || !made.failed.is_empty() {
+        if made.certificate.delaunay || !made.failed.is_empty() || made.budget_spent {
             return Ok(made);
         }
         let again = compact(net, &self.kept(true), Effort::Repair, monitor)?;
@@ -258,7 +261,7 @@ impl<'a> Mesher<'a> {
             return Err(PslgError::NothingEnclosed);
         }
         let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
-        optimise(&mut net, self.judge(), &excused, monitor)?;
+        optimise(&mut net, self.judge(), &excused, &self.deadline, monitor)?;
         Ok(net)
     }
 }

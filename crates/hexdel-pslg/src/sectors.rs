@@ -32,6 +32,21 @@ impl Sector {
     }
 }
 
+/// Pairs of segments, given by their ends, that meet at so small an angle that no
+/// mesh could keep bounds between them. No two may cross.
+pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
+    let order = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+    let mut sites: Vec<DVec2> = segments.iter().flatten().copied().collect();
+    sites.sort_by(order);
+    sites.dedup();
+    let site = |p: &DVec2| sites.partition_point(|q| order(q, p).is_lt()) as u32;
+    let piece =
+        |(ends, segment): (&[DVec2; 2], u32)| Piece { ends: [site(&ends[0]), site(&ends[1])], segment };
+    let pieces: Vec<Piece> = segments.iter().zip(0..).map(piece).collect();
+    let sectors = narrow_sectors(&sites, &pieces, HOPELESS_DEG);
+    wedge_pairs(&sectors).into_iter().map(|pair| pair.map(|p| p as usize)).collect()
+}
+
 /// The pieces on both sides of each sector that is given up.
 pub(crate) fn wedge_pairs(sectors: &[Sector]) -> Vec<[u32; 2]> {
     sectors.iter().filter(|s| s.is_hopeless()).map(|s| s.pieces).collect()

@@ -110,7 +110,9 @@ impl Patch {
             if spare.contains(at) {
                 let alone = Window::from_iter([at]);
                 let group = alone.dilated() & spare;
-                let _ = self.merge(group, rules) || (group != alone && self.merge(alone, rules));
+                // Mostly its own fins alone would already break a rule.
+                let _ = is_regular(needed.ring_of(at)) && self.merge(group, rules)
+                    || group != alone && is_regular(self.centre.ring_of(at)) && self.merge(alone, rules);
             }
         }
         (0..25)

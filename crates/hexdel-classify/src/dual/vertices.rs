@@ -56,9 +56,8 @@ fn fill_inserted(
     for bit in ones(inserted) {
         let (a, b) = (first - coarser.scaled() + hex_of(bit)).parents();
         let b = b.expect("a semi-hexagon has two parents");
-        let (hex, p) = [(a, b), (b, a)]
-            .into_iter()
-            .find_map(|(hex, fin)| Some((hex, star::point_on_fin(subdivided, hex, fin)?)))
+        let (hex, fin) = if subdivided.contains(a) { (b, a) } else { (a, b) };
+        let p = star::point_on_fin(subdivided, hex, fin)
             .expect("a point lies on the fin of a three-finned hexagon");
         let scaled = Offset { q: 2 * p.q, r: 2 * p.r };
         put(bit, Offset::of((hex + coarser).scaled() - first) + scaled);

@@ -123,7 +123,8 @@ impl LiveMesh {
     /// Cuts all these triangles in four at once.
     fn refine_all(&mut self, inside: &[u32]) -> bool {
         let cut = Cut::new(&self.store, rings(&self.store, inside, RINGS));
-        let marks: Vec<bool> = cut.triangles.iter().map(|t| inside.binary_search(t).is_ok()).collect();
+        let is_inside = |t: &u32| inside.binary_search(t).is_ok() && !self.is_exempt(*t);
+        let marks: Vec<bool> = cut.triangles.iter().map(is_inside).collect();
         match refine::refine(&cut, &self.tools, &marks) {
             Some(work) if cut.keeps_disk(&work.mesh) => {
                 cut.put_back(&mut self.store, &work.mesh, &work.failed);

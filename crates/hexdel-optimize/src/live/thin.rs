@@ -54,8 +54,7 @@ fn thin_rings(store: &mut Store, tools: &Tools, mut at: u32, p: DVec2, size: usi
 /// cleared, among the slots given.
 pub(crate) fn thin_all(store: &mut Store, tools: &Tools, slots: &[u32]) {
     for &v in slots {
-        let waits =
-            |v: &Vertex| v.alive() && v.failed == 0 && matches!(v.motion, Motion::Free | Motion::Along(_));
+        let waits = |v: &Vertex| v.alive() && v.failed == 0 && v.motion != Motion::Fixed;
         if store.vertices.get(v as usize).is_some_and(waits) {
             thin_rings(store, tools, v, store.at(v), RINGS_OF_MANY);
         }

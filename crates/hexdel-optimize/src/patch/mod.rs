@@ -75,6 +75,8 @@ pub(crate) struct Patch {
     /// Corners outside the target at `pos`, once evaluated.
     active: Vec<Active>,
     newton: Newton,
+    /// Triangles that projection sweeps went over.
+    visits: u64,
 }
 
 impl Patch {
@@ -213,6 +215,11 @@ impl Patch {
     /// Whether triangle `t` of the mesh belongs to the patch.
     pub(crate) fn holds(&self, t: u32) -> bool {
         self.seen.get(t as usize) == Some(&self.epoch)
+    }
+
+    /// Triangles that projection sweeps went over since the patch was made.
+    pub(crate) fn visits(&self) -> u64 {
+        self.visits
     }
 
     /// Newton steps since the patch was made.

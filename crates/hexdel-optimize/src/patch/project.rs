@@ -84,6 +84,7 @@ impl Patch {
     /// edges.
     fn sweep(&mut self, rules: &Rules<'_>) -> f64 {
         let mut energy = 0.0;
+        self.visits += self.tris.len() as u64;
         for i in 0..self.tris.len() {
             let t = self.tris[i].map(|v| v as usize);
             let [a, b, c] = t.map(|v| self.pos[v]);
