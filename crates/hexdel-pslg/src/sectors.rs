@@ -1,6 +1,6 @@
 //! Corners of the input that are narrower than the bound.
 
-use crate::fans::Scene;
+use crate::fans::Fan;
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
 use crate::validate::Piece;
@@ -46,7 +46,7 @@ pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
     let piece =
         |(ends, segment): (&[DVec2; 2], u32)| Piece { ends: [site(&ends[0]), site(&ends[1])], segment };
     let pieces: Vec<Piece> = segments.iter().zip(0..).map(piece).collect();
-    let sectors = narrow_sectors(&sites, &pieces, HOPELESS_DEG);
+    let sectors = narrow_sectors(&sites, &pieces, &[], HOPELESS_DEG);
     wedge_pairs(&sectors).into_iter().map(|pair| pair.map(|p| p as usize)).collect()
 }
 
@@ -61,8 +61,7 @@ pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
 }
 
 /// All sectors narrower than `least_deg`.
-pub(crate) fn narrow_sectors(scene: &Scene, least_deg: f64) -> Vec<Sector> {
-    let (sites, pieces, fans) = (&scene.sites, &scene.pieces, &scene.fans);
+pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Vec<Sector> {
     let mut rays: Vec<(u32, f64, u32)> = pieces
         .iter()
         .zip(0..)
