@@ -5,6 +5,7 @@ use hexdel_geom::{AngleBounds, DVec2, VertexId, point_on_segment};
 
 use crate::angles::{Limits, Measure, Place};
 use crate::mesh::Mesh;
+use crate::refill::tightness;
 
 /// The largest area of a triangle by the place of its centroid.
 pub type AreaLimit<'a> = &'a (dyn Fn(DVec2) -> f64 + Sync);
@@ -135,6 +136,8 @@ pub(crate) fn line_between(lines: &[Line], sources: [u32; 2], ends: [DVec2; 2]) 
 pub(crate) struct Rules<'a> {
     far: Limits,
     near: Limits,
+    /// How much tighter `far` is than usual.
+    tightness: f64,
     max_area: Option<AreaLimit<'a>>,
     hopeless: Option<Hopeless<'a>>,
 }
@@ -147,10 +150,12 @@ impl std::fmt::Debug for Rules<'_> {
 
 impl<'a> Rules<'a> {
     pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
+        let far = Limits::new(bounds);
         Self {
-            far: Limits::new(bounds),
+            far,
+            tightness: tightness(&far),
             near: match constraints {
-                None => Limits::new(bounds),
+                None => far,
                 Some(c) if c.strict => Limits::new(c.near).without_tolerance(),
                 Some(c) => Limits::new(c.near),
             },
@@ -163,6 +168,12 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(crate) fn limits(&self, place: Place) -> &Limits {
         if place.is_near() { &self.near } else { &self.far }
+    }
+
+    /// As [`tightness`] says of the bounds away from segments.
+    #[inline]
+    pub(crate) fn tightness(&self) -> f64 {
+        self.tightness
     }
 
     /// The bounds of most triangles at a vertex.
@@ -179,15 +190,16 @@ impl<'a> Rules<'a> {
     /// them.
     #[inline]
     pub(crate) fn is_good(&self, mesh: &Mesh, t: u32) -> bool {
-        let place = mesh.place(t);
-        self.is_within(place, mesh.measure(t))
+        self.is_within(mesh.place(t), mesh.tri[t as usize].v.map(|v| mesh.pos[v as usize]))
     }
 
     /// Whether a triangle at such a place keeps its bounds.
     #[inline]
-    pub(crate) fn is_within(&self, place: Place, m: Measure) -> bool {
+    pub(crate) fn is_within(&self, place: Place, corners: [DVec2; 3]) -> bool {
         let limits = self.limits(place);
-        limits.loose(&place.view(m, limits))
+        let [a, b, c] = corners;
+        let m = place.view(Measure::of(a, b, c), limits);
+        limits.loose(&m) || limits.granted(&m, corners)
     }
 
     /// Whether a triangle is no larger than it may be.

@@ -13,7 +13,7 @@ use hexdel_geom::{DVec2, orient2d};
 use crate::angles::{Measure, Place};
 use crate::change::outline;
 use crate::constraints::Rules;
-use crate::decimate::{Pass, settle};
+use crate::decimate::{PATIENT, Pass, settle};
 use crate::live::cut::Cut;
 use crate::mesh::{Mesh, Motion, NONE};
 use crate::refill::{Refills, degree_cost};
@@ -75,7 +75,7 @@ const ROUNDS: usize = 13;
 const SHAPE_WEIGHT: f64 = 0.1;
 
 /// How hard the neighbourhood of a new vertex is tried to be settled.
-const SETTLE: Pass = Pass { rings: 4, refills: 1, max_cost: 0.0, near: 0.1 };
+const SETTLE: Pass = Pass { rings: 4, refills: 1, max_cost: 0.0, near: 0.1, patience: PATIENT };
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug)]

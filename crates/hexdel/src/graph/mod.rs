@@ -299,7 +299,6 @@ impl Mesher {
             ("the size of edges", self.size.is_some()),
             ("meshing without coarsening", self.without_coarsening),
             ("a size", self.size.is_some()),
-            ("a budget", self.budget.is_some()),
         ];
         match given.into_iter().find(|(_, given)| *given) {
             Some((option, _)) => Err(Error::NotForGraphs { option }),
@@ -318,6 +317,7 @@ impl Mesher {
             options.near = near;
         }
         options.max_area = self.graph.max_area;
+        options.budget = self.budget;
         options
     }
 }
