@@ -15,7 +15,9 @@ use std::path::{Path, PathBuf};
 
 /// Change a mesh by commands from standard input, answered with lines of JSON
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    override_usage = "hexdel session [OPTIONS] [FILE TO OPEN]",
+    after_help = "\
     Commands:\n  \
     open FILE                    begin with the points of a file, or its graph\n  \
     domain X Y RADIUS            begin with an empty hexagon\n  \
@@ -35,9 +37,11 @@ use std::path::{Path, PathBuf};
     An answer has \"ok\", and what changed by serial numbers or the \"error\"; after an error\n\
     the session is as it was. Exits with 2 if there was one.\n\n\
     Example:\n  \
-    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session")]
+    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session"
+)]
 pub(crate) struct Args {
     /// The file to begin with, as by `open`
+    #[arg(hide = true)]
     file: Option<PathBuf>,
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]

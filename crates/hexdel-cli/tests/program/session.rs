@@ -96,9 +96,13 @@ fn edges_are_as_short_as_options_and_files_want() {
     bench.file("points.csv", "0,0\n1,0\n0,1\n");
     bench.file("sizes.txt", "# x y size\n.5 .5 .02\n");
     bench.file("sizes.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n.1 .3\n");
-    for options in
-        ["--size .1", "--max-edge .1", "--size-file sizes.txt", "--size-file sizes.asc --max-edge .2", "--max-area .01"]
-    {
+    for options in [
+        "--size .1",
+        "--max-edge .1",
+        "--size-file sizes.txt",
+        "--size-file sizes.asc --max-edge .2",
+        "--max-area .01",
+    ] {
         bench.run(&format!("mesh points.csv --report r.json -q {options}")).fine();
         let report = bench.json("r.json");
         assert!(report["size_ratio"].as_f64().is_some_and(|r| r <= 1.0 + 1e-9), "{options}: {report}");
