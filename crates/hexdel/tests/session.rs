@@ -116,6 +116,31 @@ fn points_that_come_and_go_leave_as_many_triangles_as_there_were() {
     assert!((after / before - 1.0).abs() < 0.1, "{before} triangles, then {after}");
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 6, ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_comes_and_goes_leaves_no_more_than_a_tenth(
+        seed in 0..1000_u64,
+        calls in prop::collection::vec(prop_oneof![
+            (-1.4..1.4, -1.2..1.2).prop_map(|(x, y)| Call::Insert(x, y)),
+            (0..100_usize, 0.0..6.3, 1.0..2.5).prop_map(|(i, a, e)| Call::Near(i, a, e)),
+        ], 1..6),
+    ) {
+        let mesher = Mesher::new().domain_radius(1.5);
+        let mut session = Session::new(&points(40, seed), &mesher).unwrap();
+        let before = session.counts()[2] as f64;
+        let mut ids = Vec::new();
+        for call in &calls {
+            ids.extend(run(&mut session, call).map_or(Vec::new(), |o| o.points));
+        }
+        session.remove(&ids).unwrap();
+        check(&session);
+        let after = session.counts()[2] as f64;
+        prop_assert!((after / before - 1.0).abs() <= 0.1, "{} triangles, then {}", before, after);
+    }
+}
+
 #[test]
 fn one_by_one_is_as_good_as_at_once() {
     let all = points(60, 5);

@@ -89,6 +89,11 @@ impl Cut {
         self.triangles.binary_search(&t).ok().map(|i| i as u32)
     }
 
+    /// The part's name of a vertex slot that is in it.
+    pub(crate) fn local_vertex(&self, v: u32) -> u32 {
+        self.vertices.binary_search(&v).expect("a vertex of the part") as u32
+    }
+
     /// Whether another state of the part is a disk if the part was: triangles
     /// are twice the vertices inside and once those on the rim, but for a
     /// constant.
