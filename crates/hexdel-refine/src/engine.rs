@@ -15,6 +15,8 @@
 //! threads. A tile is asked again only after a change, so the work is in
 //! proportion to what changes: near-linear in the output.
 
+mod live;
+
 use crate::coarsen;
 use crate::queue::Queue;
 use crate::rule::{RuleSet, Situation};
@@ -27,6 +29,8 @@ use hexdel_grid::window::ones;
 use hexdel_grid::{Address, Grid, Lattice, TileId};
 use rayon::prelude::*;
 use thiserror::Error;
+
+pub use live::{Changes, RestoreError};
 
 /// Why points cannot be refined for.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -67,6 +71,8 @@ pub struct Refiner {
     loose: Vec<Queue>,
     /// Tiles asked so far, for progress.
     asked: u64,
+    /// What changes, if points come and go: then demands shrink as well.
+    live: Option<Changes>,
 }
 
 /// Fewer tiles than this are asked at once by one thread: handing them out
@@ -88,6 +94,7 @@ impl Refiner {
             unprojected: Vec::new(),
             loose: Vec::new(),
             asked: 0,
+            live: None,
         }
     }
 
@@ -253,7 +260,8 @@ impl Refiner {
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
             let tiles = self.loose[usize::from(level)].take();
-            coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+            let merged = coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+            self.note_merged(level, &merged);
         }
     }
 
@@ -274,16 +282,21 @@ impl Refiner {
             // lies beside.
             (id, self.rules.must_exist(&situation).dilated().even_centre())
         };
+        let shrinking = self.live.is_some();
         let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
-        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| *d != 0).collect();
-        let mut moving = Vec::new();
+        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| shrinking || *d != 0).collect();
+        let (mut moving, mut lost) = (Vec::new(), Vec::new());
         for (id, demand) in demands {
             let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
             let bits = in_quadrant(demand, quadrant);
-            let tile = self.grid.tiles_mut().get_mut(coarser, parent);
-            tile.needed |= bits;
+            if shrinking {
+                lost.extend(self.replace_needed(coarser, parent, (quadrant, bits)));
+            } else {
+                self.grid.tiles_mut().get_mut(coarser, parent).needed |= bits;
+            }
             self.subdivide(coarser, parent, bits, &mut moving);
         }
+        self.reset(coarser, lost);
         self.sink(moving)
     }
 
@@ -298,14 +311,16 @@ impl Refiner {
 
     /// The same without noting the change; returns what was not subdivided yet.
     fn mark_subdivided(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) -> u64 {
+        self.note(level, id);
         let tile = self.grid.tiles_mut().get_mut(level, id);
         let bits = bits & !tile.subdivided;
         tile.subdivided |= bits;
         let occupied = bits & (tile.marks[0] | tile.marks[1]);
         tile.marks = tile.marks.map(|plane| plane & !bits);
         for bit in ones(occupied) {
-            let site = self.sites.leave(level, id, bit);
-            moving.push(site.expect("a marked hexagon has an occupant"));
+            let site = self.sites.leave(level, id, bit).expect("a marked hexagon has an occupant");
+            self.note_site(site);
+            moving.push(site);
         }
         bits
     }
@@ -363,7 +378,7 @@ impl Refiner {
     /// Returns what changed in the tile: the point's hexagon, or nothing.
     fn occupy(&mut self, site: u32, (id, bit): (TileId, u32), moving: &mut Vec<u32>) -> u64 {
         let level = self.sites.get(site).level;
-        let tile = self.grid.tiles_mut().get_mut(level, id);
+        let tile = self.grid.tiles().get(level, id);
         if tile.subdivided >> bit & 1 == 1 {
             moving.push(site);
             return 0;
@@ -372,7 +387,8 @@ impl Refiner {
             moving.push(site);
             return self.mark_subdivided(level, id, 1 << bit, moving);
         }
-        tile.marks[self.sites.get(site).plane()] |= 1 << bit;
+        self.note(level, id);
+        self.grid.tiles_mut().get_mut(level, id).marks[self.sites.get(site).plane()] |= 1 << bit;
         self.sites.enter(site, id);
         1 << bit
     }
