@@ -1,9 +1,11 @@
 //! What a grid keeps whose points come and go.
 
+use hexdel_classify::{Domain, KeptDual, Touched};
 use hexdel_geom::{DVec2, Unwatched};
-use hexdel_grid::{Grid, Hex, Lattice};
+use hexdel_grid::{Address, Grid, Hex, Lattice, TileId};
 use hexdel_refine::{Refiner, RuleSet};
 use proptest::prelude::*;
+use std::collections::BTreeMap;
 
 fn lattice() -> Lattice {
     Lattice::new(DVec2::ZERO, 1.0)
@@ -41,6 +43,44 @@ fn size(refiner: &Refiner) -> usize {
     refiner.grid().subdivided().count()
 }
 
+/// A mesh by places: of each tile its vertices and triangles.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Copy {
+    vertices: BTreeMap<(u8, TileId), (u64, Vec<DVec2>)>,
+    triangles: BTreeMap<(u8, TileId), Vec<[Address; 3]>>,
+}
+
+impl Copy {
+    fn follow(&mut self, dual: &mut KeptDual, refiner: &Refiner, touched: &Touched) {
+        let grid = refiner.grid();
+        for &at in &touched.vertices {
+            let places = dual.places(at.0, at.1);
+            let positions = dual.positions(grid, at, |level, id| refiner.occupants_of(level, id));
+            self.vertices.remove(&at);
+            if places != 0 {
+                self.vertices.insert(at, (places, positions));
+            }
+        }
+        for &at in &touched.triangles {
+            let triangles = dual.triangles(grid, at);
+            self.triangles.remove(&at);
+            if !triangles.is_empty() {
+                let named = triangles.into_iter().map(|t| t.map(|v| dual.address(grid, v)));
+                self.triangles.insert(at, named.collect());
+            }
+        }
+    }
+
+    fn anew(refiner: &mut Refiner) -> (KeptDual, Self) {
+        let (mut dual, touched) = KeptDual::new(refiner.grid_mut(), DOMAIN);
+        let mut copy = Self::default();
+        copy.follow(&mut dual, refiner, &touched);
+        (dual, copy)
+    }
+}
+
+const DOMAIN: Domain = Domain { base_level: 0, radius: 12 };
+
 #[derive(Clone, Debug)]
 enum Call {
     Insert(f64, f64),
@@ -62,6 +102,7 @@ proptest! {
     #[test]
     fn points_come_and_go(calls in prop::collection::vec(call(), 1..60)) {
         let mut refiner = refined(&[]);
+        let (mut dual, mut copy) = Copy::anew(&mut refiner);
         let mut points: Vec<Option<DVec2>> = Vec::new();
         for call in &calls {
             let there: Vec<usize> = (0..points.len()).filter(|&i| points[i].is_some()).collect();
@@ -85,7 +126,11 @@ proptest! {
             prop_assert!(planes(refiner.grid()) == before, "not reverted");
             refiner.forget_from(points.len());
             refiner.exchange(gone.as_slice(), new.as_slice()).unwrap();
-            refiner.take_changes();
+            let changes = refiner.take_changes();
+            let changed = refiner.differences(&changes);
+            let touched = dual.update(refiner.grid_mut(), &changed);
+            copy.follow(&mut dual, &refiner, &touched);
+            prop_assert!(copy == Copy::anew(&mut refiner).1, "another mesh");
             prop_assert!(planes(refiner.grid()) == after, "not the same again");
             if let Some(i) = gone {
                 points[i] = None;
