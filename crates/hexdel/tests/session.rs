@@ -2,54 +2,15 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
-use hexdel::optimize::live::Delta;
+#[path = "common/sessions.rs"]
+mod common;
+
+use common::{Copy, refused};
 use hexdel::{DVec2, Effort, Mesher, Outcome, PointId, Session, SessionError, Size, generate};
 use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 fn points(n: usize, seed: u64) -> Vec<DVec2> {
     generate::generate(generate::Kind::Uniform, n, seed)
-}
-
-/// A copy of a mesh that is kept by deltas alone.
-#[derive(Debug, Default, PartialEq)]
-struct Copy {
-    vertices: BTreeMap<u64, DVec2>,
-    triangles: BTreeMap<u64, [u64; 3]>,
-}
-
-impl Copy {
-    fn of(session: &Session) -> Self {
-        let made = session.mesh();
-        let serial = |t: &[hexdel::VertexId; 3]| t.map(|v| made.vertex_serials[v.index()]);
-        Self {
-            vertices: made.vertex_serials.iter().copied().zip(made.mesh.vertices.clone()).collect(),
-            triangles: made
-                .triangle_serials
-                .iter()
-                .copied()
-                .zip(made.mesh.triangles.iter().map(serial))
-                .collect(),
-        }
-    }
-
-    fn follow(&mut self, delta: &Delta) {
-        for t in &delta.triangles_removed {
-            assert!(self.triangles.remove(t).is_some(), "triangle {t} was not there");
-        }
-        for v in &delta.vertices_removed {
-            assert!(self.vertices.remove(v).is_some(), "vertex {v} was not there");
-        }
-        for &(v, at) in &delta.vertices_added {
-            assert!(self.vertices.insert(v, at).is_none(), "vertex {v} was there");
-        }
-        for &(v, at) in &delta.vertices_moved {
-            assert!(self.vertices.insert(v, at).is_some_and(|old| old != at), "vertex {v} did not move");
-        }
-        for &(t, corners) in &delta.triangles_added {
-            assert!(self.triangles.insert(t, corners).is_none(), "triangle {t} was there");
-        }
-    }
 }
 
 /// What every state keeps.
@@ -66,17 +27,6 @@ fn check(session: &Session) {
             assert!(hexdel::optimize::triangle_fits(size, corners), "an edge of {corners:?} is too long");
         }
     }
-}
-
-/// Asserts that a call is refused and has changed nothing.
-fn refused(
-    session: &mut Session,
-    call: impl FnOnce(&mut Session) -> Result<Outcome, SessionError>,
-) -> SessionError {
-    let before = session.to_ron().unwrap();
-    let error = call(session).expect_err("the call is refused");
-    assert_eq!(session.to_ron().unwrap(), before, "after {error}");
-    error
 }
 
 /// One call of a random sequence.

@@ -374,7 +374,8 @@ impl Refiner {
     ) -> Result<Self, RestoreError> {
         let mut refiner = Self::new(lattice, rules);
         for (level, first, bits) in subdivided {
-            if level + 1 >= Grid::MAX_LEVELS || first.norm() > FARTHEST || (first.q | first.r) & 7 != 0 {
+            let beyond = level >= Grid::MAX_LEVELS - 1 || is_far(first);
+            if beyond || (first.q | first.r) & 7 != 0 {
                 return Err(RestoreError::OutOfRange { level, first });
             }
             let (id, _) = refiner.grid.tile_of(Address::new(level, first));
@@ -402,7 +403,7 @@ impl Refiner {
             let Some(level) = level else { continue };
             let site = Site::new(&lattice, level.min(Grid::MAX_LEVELS - 1), point);
             let at = Address::new(site.level, site.at.hex);
-            if level >= Grid::MAX_LEVELS || at.hex.norm() > FARTHEST || !self.grid.exists(at) {
+            if level >= Grid::MAX_LEVELS || is_far(at.hex) || !self.grid.exists(at) {
                 return Err(RestoreError::NoLeaf { site: i, level });
             }
             let (tile, bit) = self.grid.tile_of(at);
@@ -445,6 +446,10 @@ impl Refiner {
 /// Steps from the origin to the hexagons of any level, at most: addresses stay
 /// where [`Lattice::locate`] is exact.
 const FARTHEST: u64 = 1 << 50;
+
+fn is_far(hex: Hex) -> bool {
+    hex.q.unsigned_abs().max(hex.r.unsigned_abs()) > FARTHEST
+}
 
 /// The bit of a hexagon in its tile.
 fn bit_of(hex: Hex) -> u32 {

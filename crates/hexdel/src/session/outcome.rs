@@ -21,7 +21,7 @@ pub struct Outcome {
 }
 
 /// A mesh as it stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SessionMesh {
     /// Vertices and counter-clockwise triangles.
