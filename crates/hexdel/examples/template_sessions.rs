@@ -1,9 +1,10 @@
-//! What changes of growing sessions of templates cost, in CPU time of all
-//! threads, and how their meshes compare with those made at once.
+//! What changes of growing sessions of templates cost, and how their meshes
+//! compare with those made at once.
 //!
 //! `cargo run --release -p hexdel --example template_sessions -- CHANGES POINTS ..`
 
 use hexdel::{DVec2, Mesher, Method, PointId, SessionError, TemplateSession, generate};
+use std::time::Instant;
 
 #[allow(clippy::print_stdout, reason = "an example prints")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -13,18 +14,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let n = n?;
         let all = generate::generate(generate::Kind::Uniform, n + changes, 1);
         let mesher = Mesher::new().method(Method::Templates);
-        let began = cpu_ms();
+        let began = Instant::now();
         let mut session = TemplateSession::new(&all[..n], &mesher)?;
         let before = session.counts()[2];
-        println!("{n} points, {before} triangles, made in {:.0} ms", cpu_ms() - began);
+        println!("{n} points, {before} triangles, made in {:.0} ms", ms(began));
         let (mut inserted, mut remeshed, mut changed) = (Vec::new(), 0, 0);
         for &p in &all[n..] {
-            let began = cpu_ms();
+            let began = Instant::now();
             let outcome = match session.insert(p) {
                 Err(SessionError::Outside { .. }) => continue,
                 outcome => outcome?,
             };
-            inserted.push(cpu_ms() - began);
+            inserted.push(ms(began));
             remeshed += usize::from(outcome.remeshed);
             changed += outcome.delta.triangles_added.len();
         }
@@ -33,17 +34,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         compare(&session, &mesher)?;
         let (mut removed, mut undone) = (Vec::new(), Vec::new());
         for id in (n as u64..).take(inserted.len()) {
-            let began = cpu_ms();
+            let began = Instant::now();
             session.remove(&[PointId(id)])?;
-            removed.push(cpu_ms() - began);
+            removed.push(ms(began));
         }
         print("remove", &mut removed);
         println!("  {:.3} of the triangles before", session.counts()[2] as f64 / before as f64);
         compare(&session, &mesher)?;
         for _ in 0..inserted.len().min(200) {
-            let began = cpu_ms();
+            let began = Instant::now();
             session.undo()?;
-            undone.push(cpu_ms() - began);
+            undone.push(ms(began));
         }
         print("undo", &mut undone);
     }
@@ -71,13 +72,6 @@ fn print(what: &str, ms: &mut [f64]) {
     println!("  {what}: median {:.2} ms, 90 % {:.2}, most {:.2}", at(0.5), at(0.9), at(1.0));
 }
 
-/// Milliseconds that all threads of this process have run, by the system's
-/// account.
-fn cpu_ms() -> f64 {
-    let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
-    let spent = tasks.filter_map(|task| {
-        let text = std::fs::read_to_string(task.path().join("schedstat")).ok()?;
-        text.split(' ').next()?.parse::<f64>().ok()
-    });
-    spent.sum::<f64>() * 1e-6
+fn ms(began: Instant) -> f64 {
+    began.elapsed().as_secs_f64() * 1e3
 }

@@ -131,7 +131,13 @@ impl Grown {
 
     /// Takes points out, by their place in the order of adding, and puts others
     /// in.
-    pub(super) fn exchange(
+    pub(super) fn exchange(&mut self, gone: &[usize], new: (&[PointId], &[DVec2])) -> Result<Step, Stuck> {
+        // On one of the threads that work in parallel: handing them many small
+        // tasks from outside would take longer than the tasks.
+        rayon::scope(|_| self.exchange_here(gone, new))
+    }
+
+    fn exchange_here(
         &mut self,
         gone: &[usize],
         (ids, points): (&[PointId], &[DVec2]),
