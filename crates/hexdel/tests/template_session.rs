@@ -144,6 +144,23 @@ fn one_by_one_and_back_is_as_good_as_at_once() {
 }
 
 #[test]
+fn what_points_have_left_behind_can_be_taken_away() {
+    // Half of a square lattice: its points hold each other down across all of it.
+    let all = generate::generate(generate::Kind::Grid, 100, 0);
+    let mut session = TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap();
+    session.insert_all(&all).unwrap();
+    for i in (0..100).filter(|i| (i / 10 + i) % 2 == 0) {
+        session.remove(&[PointId(i)]).unwrap();
+    }
+    let before = session.counts()[2];
+    assert!(session.renew().unwrap().remeshed);
+    check(&session);
+    let (mut once, left) = (TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap(), session.points());
+    once.insert_all(&left.map(|p| p.1).collect::<Vec<_>>()).unwrap();
+    assert!(session.counts()[2] <= before && session.counts() == once.counts());
+}
+
+#[test]
 fn the_mesh_is_the_one_of_the_method() {
     let all = points(200, 8);
     let session = TemplateSession::new(&all, &Mesher::new()).unwrap();

@@ -235,6 +235,25 @@ impl TemplateSession {
         self.mesh_anew(lattice, self.grown.steps(), self.all_points(), Vec::new())
     }
 
+    /// Meshes all points anew in the same domain, which takes away what points
+    /// that came and went have left.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] if that fails.
+    ///
+    /// # Complexity
+    ///
+    /// That of a mesh made at once.
+    pub fn renew(&mut self) -> Result<Outcome, SessionError> {
+        let (mut lattice, mut steps) = (self.grown.lattice(), self.grown.steps());
+        while steps.is_multiple_of(2) && steps > STEPS {
+            lattice = Lattice::new(lattice.origin(), 2.0 * lattice.spacing(0));
+            steps /= 2;
+        }
+        self.mesh_anew(lattice, steps, self.all_points(), Vec::new())
+    }
+
     /// Takes the last call back that is not taken back yet; 256 are remembered,
     /// none across saving.
     ///
