@@ -14,7 +14,7 @@ use thiserror::Error;
 pub(crate) enum Verdict {
     Holds,
     Fails,
-    /// Good, but the time was up before it was as good as can be.
+    /// The time was up before it was as good as can be.
     Spent,
 }
 

@@ -60,6 +60,15 @@ pub fn shortest_edge(corners: [DVec2; 3]) -> f64 {
     a.distance(b).min(b.distance(c)).min(c.distance(a))
 }
 
+/// What rounding the corners alone may do to an angle, degrees: no more than the
+/// certificate grants, which is `ulp(x) (1/|ab| + 1/|ac|)` radians at least for
+/// the largest coordinate `x`, and `ulp(x) >= eps |x| / 2`.
+pub fn rounding_deg([a, b, c]: [DVec2; 3]) -> f64 {
+    let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
+    let longest_sq = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+    (largest * f64::EPSILON / longest_sq.sqrt()).to_degrees()
+}
+
 /// Signed angle from `u` to `w`, radians.
 fn angle(u: DVec2, w: DVec2) -> f64 {
     libm::atan2(u.perp_dot(w), u.dot(w))

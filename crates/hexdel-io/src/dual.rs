@@ -17,7 +17,7 @@ use crate::atomic::Draft;
 use crate::error::WriteError;
 use crate::format::DualFormat;
 use crate::text::TextWriter;
-use crate::vtu::array;
+use crate::vtu::{self, array};
 
 /// VTK's number of the cell type polygon.
 const VTK_POLYGON: u8 = 7;
@@ -101,19 +101,8 @@ fn write_vtu(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Res
     let cells = Cells::of(mesh, dual);
     let count = cells.vertices.len();
     let mut out = BufWriter::with_capacity(1 << 16, out);
-    write!(
-        out,
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
-         byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-         <UnstructuredGrid>\n\
-         <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{count}\">\n<Points>\n",
-        cells.corners.len(),
-    )?;
-    let coordinates = cells.corners.iter().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
-    let attributes = "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"";
-    array(&mut out, attributes, 3 * cells.corners.len(), coordinates)?;
-    out.write_all(b"</Points>\n<Cells>\n")?;
+    vtu::begin(&mut out, &cells.corners, count)?;
+    out.write_all(b"<Cells>\n")?;
     integers(&mut out, "connectivity", &cells.rings)?;
     integers(&mut out, "offsets", &cells.ends)?;
     array(&mut out, "type=\"UInt8\" Name=\"types\"", count, std::iter::repeat_n([VTK_POLYGON], count))?;
@@ -121,8 +110,8 @@ fn write_vtu(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Res
     integers(&mut out, "vertex", &cells.vertices)?;
     let areas = cells.vertices.iter().map(|&v| dual.areas[v as usize].to_le_bytes());
     array(&mut out, "type=\"Float64\" Name=\"area\"", count, areas)?;
-    out.write_all(b"</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")?;
-    out.flush()
+    out.write_all(b"</CellData>\n")?;
+    vtu::end(&mut out)
 }
 
 fn integers(out: &mut dyn Write, name: &str, values: &[i64]) -> io::Result<()> {

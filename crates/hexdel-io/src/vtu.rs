@@ -15,7 +15,7 @@ use std::io::{self, BufWriter, Write};
 
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
-use hexdel_geom::TriangleId;
+use hexdel_geom::{DVec2, TriangleId};
 
 use crate::angles::angle_range_deg;
 use crate::view::MeshView;
@@ -26,32 +26,34 @@ const VTK_TRIANGLE: u8 = 5;
 /// Writes a mesh.
 pub(crate) fn write_vtu(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(1 << 16, out);
+    begin(&mut out, &view.mesh.vertices, view.mesh.triangles.len())?;
+    cells(&mut out, view)?;
+    point_data(&mut out, view)?;
+    cell_data(&mut out, view)?;
+    end(&mut out)
+}
+
+/// Writes the file up to and with the points of so many cells.
+pub(crate) fn begin(out: &mut dyn Write, points: &[DVec2], cells: usize) -> io::Result<()> {
+    let count = points.len();
     write!(
         out,
         "<?xml version=\"1.0\"?>\n\
          <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
          byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
          <UnstructuredGrid>\n\
-         <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-        view.mesh.vertices.len(),
-        view.mesh.triangles.len(),
+         <Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n<Points>\n",
     )?;
-    points(&mut out, view)?;
-    cells(&mut out, view)?;
-    point_data(&mut out, view)?;
-    cell_data(&mut out, view)?;
-    out.write_all(b"</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")?;
-    out.flush()
+    let coordinates = points.iter().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
+    let attributes = "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"";
+    array(out, attributes, 3 * count, coordinates)?;
+    out.write_all(b"</Points>\n")
 }
 
-fn points(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
-    let positions = view.mesh.vertices.iter();
-    let coordinates = positions.flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
-    let count = 3 * view.mesh.vertices.len();
-    out.write_all(b"<Points>\n")?;
-    let attributes = "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"";
-    array(out, attributes, count, coordinates)?;
-    out.write_all(b"</Points>\n")
+/// Writes what stands after the last array of cell data.
+pub(crate) fn end(out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(b"</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")?;
+    out.flush()
 }
 
 fn cells(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {

@@ -1,6 +1,6 @@
 //! Every kind of file that is written is read by a reader that is not ours: meshio, in
-//! a virtual environment of Python that is made once below `target/`. Of Triangle's
-//! formats and JSON Python itself is the reader; RON has none outside of Rust.
+//! a virtual environment of Python that is made once below `target/`. Of what meshio does
+//! not know, Triangle's formats, JSON, RON and pictures, Python itself is the reader.
 //!
 //! Without Python or a package registry this is skipped, and says so. There is no test
 //! harness around it, which would keep that line to itself.
@@ -76,11 +76,10 @@ fn environment() -> Result<PathBuf, String> {
 fn write_all(folder: &Path, integers: bool) {
     let data = sample(integers);
     let extensions =
-        ["vtu", "msh", "msh2", "mesh", "obj", "off", "ele", "edge", "neigh", "poly", "json", "svg"];
-    for extension in extensions {
-        // Regions that are no integers are not for Medit, and element data of version
-        // 2.2, where they would stand, are more than meshio can read.
-        if integers || !["mesh", "msh2"].contains(&extension) {
+        ["vtu", "msh", "msh2", "mesh", "obj", "off", "ele", "edge", "neigh", "poly", "json", "ron", "svg"];
+    for extension in extensions.into_iter().chain(cfg!(feature = "png").then_some("png")) {
+        // Regions that are no integers are not for Medit.
+        if integers || extension != "mesh" {
             write_mesh(folder.join("mesh").with_extension(extension), &data.view()).unwrap();
         }
     }

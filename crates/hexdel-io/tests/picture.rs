@@ -2,22 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+mod support;
+
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use hexdel_io::{
     ColourBy, Groups, MarkedEdge, MeshFormat, MeshView, OverlayClass, Picture, Rgb, WriteError, write_mesh_to,
 };
-
-/// `n` by `n` squares, each halved from its lower left to its upper right corner.
-fn squares(n: usize) -> TriMesh {
-    let vertex = |x: usize, y: usize| VertexId::new(y * (n + 1) + x);
-    let places = (0..=n).flat_map(|y| (0..=n).map(move |x| DVec2::new(x as f64, y as f64)));
-    let cells = (0..n).flat_map(|y| (0..n).map(move |x| (x, y)));
-    let triangles = cells.flat_map(|(x, y)| {
-        let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
-        [[a, b, c], [a, c, d]]
-    });
-    TriMesh { vertices: places.collect(), triangles: triangles.collect() }
-}
+use support::squares;
 
 fn bytes(format: MeshFormat, view: &MeshView<'_>) -> Vec<u8> {
     let mut out = Vec::new();

@@ -1,15 +1,20 @@
 """Reads the files that hexdel-io wrote with readers that are not ours.
 
 Called with a folder; `expected.json` in it is what was written. meshio reads what it
-knows, a few lines below the text formats of Triangle, which it does not: its own
-reader of .node and .ele is TetGen's and takes three dimensions only.
+knows, a few lines below what it does not: the text formats of Triangle (its own
+reader of .node and .ele is TetGen's and takes three dimensions only), data of elements
+of .msh 2.2 beside groups, RON, and pictures.
 """
 
+import itertools
 import json
 import math
 import pathlib
+import re
+import struct
 import sys
 import xml.etree.ElementTree
+import zlib
 
 import meshio
 import numpy
@@ -90,6 +95,21 @@ def msh(path):
     names = {("marker", int(m)) for m in edge_markers if m != 0}
     names |= {("region", int(g)) for g in groups if g != 0}
     assert set(mesh.field_data) == {f"{kind} {number}" for kind, number in names}, mesh.field_data
+
+
+def msh2(path):
+    if integral:
+        return msh(path)
+    lines = path.read_text().splitlines()
+    section = lambda name: lines[lines.index(f"${name}") + 1 : lines.index(f"$End{name}")]
+    nodes = [line.split() for line in section("Nodes")[1:]]
+    same_bits(numpy.array([[float(x) for x in row[1:]] for row in nodes]), path)
+    tags = {row[0]: i for i, row in enumerate(nodes)}
+    elements = {row[0]: row for row in map(str.split, section("Elements")[1:]) if row[1] == "2"}
+    order, found = zip(*(map(float, line.split()) for line in section("ElementData")[-len(elements) :]))
+    cells = [[tags[corner] for corner in elements[str(int(i))][-3:]] for i in order]
+    sort = lambda rows, values: sorted(zip(map(tuple, rows), values))
+    assert sort(cells, found) == sort(triangles.tolist(), regions), path
 
 
 def medit(path):
@@ -181,14 +201,62 @@ def json_mesh(path):
     assert json.loads(path.read_text()) == expected, path
 
 
+def ron_value(tokens):
+    """One value of RON: structs become dicts, tuples and lists lists, Some(x) is x."""
+    token = next(tokens)
+    if token == "None":
+        return None
+    if token == "Some":
+        [value] = ron_value(tokens)
+        return value
+    if token not in "([":
+        return json.loads(token)
+    items, fields = [], {}
+    for token in tokens:
+        if token in ")]":
+            return fields or items
+        if token == ",":
+            continue
+        if re.fullmatch("[a-z_]+", token):
+            assert next(tokens) == ":", token
+            fields[token] = ron_value(tokens)
+        else:
+            items.append(ron_value(itertools.chain([token], tokens)))
+
+
+def ron(path):
+    tokens = iter(re.findall(r"[()\[\]:,]|[^()\[\]:,\s]+", path.read_text()))
+    found = ron_value(tokens)
+    assert {name: found[name] for name in expected} == expected and not list(tokens), path
+
+
+def png(path):
+    content = path.read_bytes()
+    assert content[:8] == b"\x89PNG\r\n\x1a\n", path
+    at, data = 8, b""
+    while at < len(content):
+        length, kind = struct.unpack(">I4s", content[at : at + 8])
+        body = content[at + 8 : at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", content[at + 8 + length : at + 12 + length])[0], path
+        if kind == b"IHDR":
+            width, height, depth, colours = struct.unpack(">IIBB", body[:10])
+        data += body if kind == b"IDAT" else b""
+        at += 12 + length
+    channels = {2: 3, 6: 4}[colours]
+    pixels = zlib.decompress(data)
+    assert kind == b"IEND" and depth == 8 and len(pixels) == height * (1 + channels * width), path
+    assert len(set(pixels)) > 10, "an empty picture"
+
+
 def svg(path):
     root = xml.etree.ElementTree.parse(path).getroot()
     assert root.tag.endswith("svg"), path
 
 
 READERS = {
-    ".vtu": vtu, ".msh": msh, ".msh2": msh, ".mesh": medit, ".obj": plain, ".off": plain, ".node": node,
-    ".ele": ele, ".edge": edge, ".neigh": neigh, ".poly": poly, ".json": json_mesh, ".svg": svg,
+    ".vtu": vtu, ".msh": msh, ".msh2": msh2, ".mesh": medit, ".obj": plain, ".off": plain, ".node": node,
+    ".ele": ele, ".edge": edge, ".neigh": neigh, ".poly": poly, ".json": json_mesh, ".ron": ron, ".svg": svg,
+    ".png": png,
 }
 
 read = 0

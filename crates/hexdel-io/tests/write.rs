@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+mod support;
+
 use std::fs;
 use std::path::Path;
 
@@ -11,18 +13,7 @@ use hexdel_io::{
     MarkedEdge, MeshFormat, MeshView, Overlay, OverlayClass, Picture, Polygon, ReadError, Rgb, WriteError,
     read_mesh, write_mesh, write_mesh_to, write_points,
 };
-
-/// `n` by `n` squares, each halved.
-fn squares(n: usize) -> TriMesh {
-    let vertex = |x: usize, y: usize| VertexId::new(y * (n + 1) + x);
-    let places = (0..=n).flat_map(|y| (0..=n).map(move |x| DVec2::new(x as f64, y as f64)));
-    let cells = (0..n).flat_map(|y| (0..n).map(move |x| (x, y)));
-    let triangles = cells.flat_map(|(x, y)| {
-        let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
-        [[a, b, c], [a, c, d]]
-    });
-    TriMesh { vertices: places.collect(), triangles: triangles.collect() }
-}
+use support::squares;
 
 fn text(format: MeshFormat, view: &MeshView<'_>) -> String {
     let mut out = Vec::new();

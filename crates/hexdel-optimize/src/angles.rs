@@ -9,7 +9,7 @@
 //! polynomial that uses nothing but the four operations, so that the result
 //! is the same on every platform.
 
-use hexdel_geom::{AngleBounds, DVec2};
+use hexdel_geom::{AngleBounds, DVec2, quality};
 
 /// Distance inside the promised bounds that a solved triangle keeps, degrees.
 ///
@@ -23,6 +23,10 @@ pub(crate) const STRICT_DEG: f64 = 1e-7;
 /// never moved counts as inside, degrees: the lattice's right angles are exact
 /// but for rounding. A tenth of what a certificate tolerates (1e-9).
 pub(crate) const LOOSE_DEG: f64 = 1e-10;
+
+/// Distance outside the promised bounds that a certificate surely tolerates,
+/// degrees: what was made elsewhere may use it up.
+const GRANTED_DEG: f64 = 0.99 * hexdel_geom::ANGLE_TOLERANCE_DEG;
 
 /// Distance inside the promised bounds that the solver aims at, degrees, so
 /// that it arrives inside after finitely many steps.
@@ -55,6 +59,8 @@ pub(crate) struct Limits {
     /// The promised bounds, radians.
     pub(crate) min_rad: f64,
     pub(crate) max_rad: f64,
+    /// Whether a triangle may be past the bounds by what a certificate grants.
+    grants: bool,
     /// Whether a mesh inside the bounds may be other than Delaunay: two
     /// angles opposite an edge can exceed a half-turn.
     pub(crate) check_delaunay: bool,
@@ -93,6 +99,7 @@ impl Limits {
             tolerated: cot(hi + hexdel_geom::ANGLE_TOLERANCE_DEG.to_radians()),
             min_rad: lo,
             max_rad: hi,
+            grants: true,
             check_delaunay: bounds.max_deg() > 90.0,
         }
     }
@@ -102,7 +109,7 @@ impl Limits {
     /// Right angles on both sides of an edge leave it to rounding whether the
     /// edge is Delaunay.
     pub(crate) fn without_tolerance(self) -> Self {
-        Self { loose: self.strict, ..self }
+        Self { loose: self.strict, grants: false, ..self }
     }
 
     /// Whether the triangle keeps the bounds with the solver's margin.
@@ -115,6 +122,14 @@ impl Limits {
     #[inline]
     pub(crate) fn loose(&self, m: &Measure) -> bool {
         m.within(self.loose)
+    }
+
+    /// Whether the triangle, with such corners, is past the bounds by no more
+    /// than a certificate grants: its tolerance, and what rounding does.
+    #[cold]
+    pub(crate) fn granted(&self, m: &Measure, corners: [DVec2; 3]) -> bool {
+        let d = (GRANTED_DEG + quality::rounding_deg(corners)).to_radians();
+        self.grants && m.within(Cot { min: cot(self.min_rad - d), max: cot(self.max_rad + d) })
     }
 
     /// Whether the triangle has no residual.

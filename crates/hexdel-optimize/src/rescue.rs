@@ -18,14 +18,16 @@ const TRIES: [(usize, usize); 7] = [(1, 1), (2, 1), (3, 1), (2, 2), (4, 1), (3, 
 const STEPS: [usize; 9] = [0, 1, 3, 4, 5, 6, 7, 10, 15];
 
 /// Tries to settle each bad triangle of the mesh; what does not lower their
-/// number is undone.
-pub(crate) fn rescue(work: &mut Work) {
+/// number is undone. Projection sweeps visit about `allowance` triangles for each
+/// of them.
+pub(crate) fn rescue(work: &mut Work, allowance: u64) {
     let mut left = work.bad();
     let many = left.len();
+    let end = work.patch.visits().saturating_add(allowance.saturating_mul(many as u64));
     for (rings, times) in TRIES {
         for t in left {
-            if work.is_bad(t) {
-                refine_and_repair(work, t, rings, times);
+            if work.is_bad(t) && work.patch.visits() < end {
+                refine_and_repair(work, t, (rings, times), end);
             }
         }
         left = work.bad();
@@ -40,15 +42,18 @@ pub(crate) fn rescue(work: &mut Work) {
     }
 }
 
-/// Refines around `t`, repairs, and keeps that if fewer triangles are bad.
-fn refine_and_repair(work: &mut Work, t: u32, rings: usize, times: usize) {
+/// Refines around `t`, repairs until sweeps have visited `end` triangles in all,
+/// and keeps that if fewer are bad.
+fn refine_and_repair(work: &mut Work, t: u32, (rings, times): (usize, usize), end: u64) {
     let before = (work.mesh.clone(), work.failed.clone(), work.bad().len());
     let corners = work.mesh.tri[t as usize].v;
     for _ in 0..times {
         split_around(work, &corners, rings);
     }
     for s in STEPS {
-        repair(work, step(s));
+        if work.patch.visits() < end {
+            repair(work, step(s));
+        }
     }
     if work.bad().len() >= before.2 {
         work.mesh = before.0;

@@ -7,7 +7,6 @@ use hexdel_geom::monitor::check;
 use hexdel_geom::{Cancelled, Monitor, Phase, TriMesh};
 use rayon::prelude::*;
 
-use crate::angles::Measure;
 use crate::constraints::{Constraints, Rules};
 use crate::decimate::{PASSES, decimate};
 use crate::error::OptimizeError;
@@ -145,6 +144,10 @@ const BATCH: usize = 8;
 /// tenths of a second.
 const FEW: usize = 4;
 
+/// Triangles visited by projection sweeps for each of them, at most: those that
+/// are rescued at all took a million in the median, five at most.
+const RESCUE_VISITS: u64 = 4_000_000;
+
 /// Rounds of search that hopeless triangles take part in.
 const HOPEFUL_ROUNDS: usize = 2;
 
@@ -259,15 +262,20 @@ impl<'a> Run<'a> {
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
             self.round_of(&cuts, |work| search(work, steps))?;
         }
+        let constrained = self.soup.is_constrained();
+        let mut least = usize::MAX;
         for rings in RESCUE_RINGS {
             let bad = self.hopeful(false);
-            // Graphs with many bad spots are better made anew with a finer start.
-            let many = self.soup.is_constrained() && bad.len() > FEW;
-            if many || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
+            // Graphs with many bad spots, or some that stay as they are, are
+            // better made anew with a finer start.
+            let elsewhere = constrained && (bad.len() > FEW || bad.len() >= least);
+            if elsewhere || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }
+            least = bad.len();
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
-            self.round_of(&cuts, rescue)?;
+            let allowance = if constrained { RESCUE_VISITS } else { u64::MAX };
+            self.round_of(&cuts, |work| rescue(work, allowance))?;
         }
         Ok(())
     }
@@ -285,9 +293,8 @@ impl<'a> Run<'a> {
         let near = self.soup.near();
         let is_bad = |&t: &u32| {
             let t = t as usize;
-            let [a, b, c] = self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
-            let place = self.soup.place(t, &near);
-            !self.rules.is_within(place, Measure::of(a, b, c))
+            let corners = self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
+            !self.rules.is_within(self.soup.place(t, &near), corners)
         };
         (0..self.soup.tris.len() as u32).filter(is_bad).collect()
     }

@@ -27,7 +27,7 @@ fn what_was_fine_for_one_vertex_goes_with_it() {
         let slot = live.insert(p.into()).unwrap();
         check(&live);
         let fine = live.counts()[1];
-        live.release(slot);
+        live.release(slot).unwrap();
         check(&live);
         let left = live.counts()[1];
         assert!(left <= most, "{p:?}: {fine} triangles with it, {left} without");

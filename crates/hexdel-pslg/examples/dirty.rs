@@ -5,13 +5,15 @@
 //! cargo run --release -p hexdel-pslg --example dirty [COUNT] [FIRST]
 //! ```
 
+#[path = "../tests/support/cpu.rs"]
+mod cpu;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
+use cpu::cpu_seconds;
 use hexdel_geom::{Pslg, Unwatched};
 use hexdel_pslg::{Options, mesh, repair, validate};
 use std::io::Write;
-use std::time::Instant;
 
 #[derive(Default)]
 struct Tally {
@@ -19,7 +21,8 @@ struct Tally {
     failed: u32,
     refused: u32,
     broken: u32,
-    slowest: (f64, u64),
+    /// CPU seconds and seed of each.
+    seconds: Vec<(f64, u64)>,
 }
 
 fn main() -> std::io::Result<()> {
@@ -36,18 +39,29 @@ fn main() -> std::io::Result<()> {
             one(&mended, seed, &mut dirty, &mut out)?;
         }
     }
-    for (name, t) in [("planar", clean), ("repaired", dirty)] {
+    for (name, mut t) in [("planar", clean), ("repaired", dirty)] {
+        t.seconds.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let at = |share: f64| t.seconds.get((t.seconds.len() as f64 * share) as usize).map_or(0.0, |s| s.0);
         writeln!(
             out,
-            "{name}: {} within bounds, {} with failed triangles, {} refused, {} broken; slowest {:.2} s (seed {})",
-            t.good, t.failed, t.refused, t.broken, t.slowest.0, t.slowest.1
+            "{name}: {} within bounds, {} with failed triangles, {} refused, {} broken; CPU seconds: median {:.3}, \
+             one in ten {:.3}, one in a hundred {:.2}, one in a thousand {:.2}, slowest {:.2?}",
+            t.good,
+            t.failed,
+            t.refused,
+            t.broken,
+            at(0.5),
+            at(0.1),
+            at(0.01),
+            at(0.001),
+            &t.seconds[..t.seconds.len().min(3)],
         )?;
     }
     Ok(())
 }
 
 fn one(graph: &Pslg, seed: u64, tally: &mut Tally, out: &mut impl Write) -> std::io::Result<()> {
-    let start = Instant::now();
+    let start = cpu_seconds();
     let valid = match validate(graph) {
         Ok(valid) => valid,
         Err(error) => {
@@ -58,7 +72,11 @@ fn one(graph: &Pslg, seed: u64, tally: &mut Tally, out: &mut impl Write) -> std:
     match mesh(&valid, &Options::new().retries(1).max_triangles(200_000), &Unwatched) {
         Ok(made) => match support::check(graph, &made) {
             Ok(()) if made.holds() => tally.good += 1,
-            Ok(()) => tally.failed += 1,
+            Ok(()) => {
+                tally.failed += 1;
+                let left = made.failed.len();
+                writeln!(out, "{seed}: {left} failed, {} not Delaunay", made.certificate.non_delaunay_edges)?;
+            }
             Err(what) => {
                 tally.broken += 1;
                 writeln!(out, "{seed}: {what}")?;
@@ -69,12 +87,10 @@ fn one(graph: &Pslg, seed: u64, tally: &mut Tally, out: &mut impl Write) -> std:
             writeln!(out, "{seed}: {error}")?;
         }
     }
-    let seconds = start.elapsed().as_secs_f64();
+    let seconds = cpu_seconds() - start;
     if seconds > 1.0 {
         writeln!(out, "{seed}: {seconds:.2} s")?;
     }
-    if seconds > tally.slowest.0 {
-        tally.slowest = (seconds, seed);
-    }
+    tally.seconds.push((seconds, seed));
     Ok(())
 }

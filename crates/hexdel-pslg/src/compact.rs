@@ -9,6 +9,7 @@ use crate::fit::count_rings;
 use crate::fit::judge::Judge;
 use crate::geometry::fraction;
 use crate::net::{Kind, NONE, Net};
+use crate::options::Deadline;
 use crate::sectors::{Sector, sector_near, wedge_pairs};
 use crate::validate::Piece;
 use hexdel_geom::{Cancelled, DVec2, Monitor, TriMesh, VertexId};
@@ -26,6 +27,7 @@ pub(crate) struct Kept<'a> {
     pub(crate) areas: Option<&'a AreaLimits<'a>>,
     /// Whether right angles near segments are to go, too.
     pub(crate) strict: bool,
+    pub(crate) deadline: &'a Deadline,
 }
 
 /// Takes vertices out of a net. It stays as it was if more triangles would be
@@ -51,7 +53,8 @@ pub(crate) fn compact(
         hopeless: Some(&hopeless),
         max_area: kept.areas.map(|_| &limit as _),
     };
-    let options = Options::new(kept.judge.far, effort);
+    let mut options = Options::new(kept.judge.far, effort);
+    options.budget = kept.deadline.left();
     let mesh = taken.mesh.clone();
     let made = match optimize_constrained(mesh, &taken.vertex_kinds(), &constraints, &options, monitor) {
         Ok(made) => made,
@@ -63,6 +66,9 @@ pub(crate) fn compact(
             return Ok(net);
         }
     };
+    if !made.finished {
+        kept.deadline.spend();
+    }
     let mut compacted = taken.rebuild(&net, &made, kept.pieces);
     count_rings(&mut compacted);
     let bad = |net: &Net| net.alive().filter(|&t| kept.judge.is_out(net, t)).count();
@@ -119,6 +125,7 @@ impl Taken {
     fn rebuild(&self, before: &Net, made: &Optimized, pieces: &[Piece]) -> Net {
         let mut net = Net::of(&made.mesh);
         net.lines.clone_from(&before.lines);
+        net.soft = before.soft;
         for (v, kind) in made.kinds.iter().enumerate() {
             let at = made.mesh.vertices[v];
             let kind = match *kind {

@@ -23,6 +23,7 @@
 //! | `hull` | the convex hull as a boundary |
 //! | `net` | a triangulation that can be changed, and changes taken back |
 //! | `field` | the size of a mesh at every place |
+//! | `fans` | triangles around the narrowest corners |
 //! | `embed` | points and segments go into the mesh |
 //! | `carve` | holes and the outside go |
 //! | `sectors` | corners that are narrower than the bound |
@@ -40,6 +41,7 @@ mod carve;
 mod compact;
 mod embed;
 mod error;
+mod fans;
 mod field;
 mod fit;
 mod geometry;
@@ -60,6 +62,8 @@ pub use error::{Feature, PslgError, ValidateError};
 pub use hexdel_optimize::Effort;
 pub use mesher::mesh;
 pub use options::{Extent, Options, SegmentMethod};
+pub use output::vertex_markers;
 pub use repair::{Repair, RepairReport, repair};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
+pub use sectors::hopeless_pairs;
 pub use validate::{Divided, Validated, validate, violations};

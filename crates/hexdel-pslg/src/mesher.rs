@@ -5,17 +5,18 @@ use crate::carve::carve;
 use crate::compact::{Kept, compact};
 use crate::embed::embed;
 use crate::error::PslgError;
+use crate::fans::{Scene, with_fans};
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::optimise;
 use crate::hull::with_hull;
 use crate::net::Net;
-use crate::options::{Extent, Options, SegmentMethod};
+use crate::options::{Deadline, Extent, Options, SegmentMethod};
 use crate::output::{self, Parts};
 use crate::paper;
 use crate::result::PslgMesh;
 use crate::sectors::{Sector, narrow_sectors, sector_near, wedges};
 use crate::sizing::{Demand, Features, lattice_for, refine};
-use crate::validate::{Piece, Validated};
+use crate::validate::Validated;
 use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
@@ -85,23 +86,22 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     }
     let mesher = Mesher::new(input, options);
     let mut demands = Vec::new();
-    let mut best: Option<(usize, Net)> = None;
-    let mut attempt = 0;
-    loop {
+    let mut retries = 0;
+    let mut best = mesher.compacted(mesher.attempt(&demands, monitor)?, monitor)?;
+    let mut left = mesher.left(&best);
+    while !left.elsewhere.is_empty() && retries < options.retries && !mesher.deadline.is_over() {
+        demands.extend(left.elsewhere.iter().map(|&t| demand_at(&best, t)));
+        retries += 1;
         let net = mesher.compacted(mesher.attempt(&demands, monitor)?, monitor)?;
-        let left = mesher.left(&net);
-        demands.extend(left.elsewhere.iter().map(|&t| demand_at(&net, t)));
-        if best.as_ref().is_none_or(|(least, _)| left.score() < *least) {
-            best = Some((left.score(), net));
-        }
-        if left.elsewhere.is_empty() || attempt == options.retries {
+        let now = mesher.left(&net);
+        // What one more level has not helped is not for the next to help.
+        if now.score() >= left.score() {
             break;
         }
-        attempt += 1;
+        (best, left) = (net, now);
     }
-    let (_, net) = best.expect("the first attempt is the best of one at least");
     check(monitor)?;
-    mesher.finished(net, attempt, monitor)
+    mesher.finished(best, retries, monitor)
 }
 
 /// Triangles that are not as they should be.
@@ -135,10 +135,11 @@ struct Mesher<'a> {
     lattice: Lattice,
     /// Radius of the disc that the domain must hold.
     reach: f64,
-    pieces: Vec<Piece>,
+    scene: Scene,
     sectors: Vec<Sector>,
     wedges: Wedges,
     areas: Option<AreaLimits<'a>>,
+    deadline: Deadline,
 }
 
 impl<'a> Mesher<'a> {
@@ -147,17 +148,21 @@ impl<'a> Mesher<'a> {
             smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
         let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
         let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
-        let sectors = narrow_sectors(input.points.sites(), &pieces, options.near.min_deg());
-        let wedges = wedges(&sectors, &pieces);
+        let area = |p: DVec2| areas.as_ref().map_or(f64::INFINITY, |areas| areas.at(p));
+        let scene = with_fans(input, pieces, options.near, &area);
+        let sectors = narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
+        let wedges = wedges(&sectors, &scene.pieces);
+        let reach = scene.sites.iter().map(|p| p.distance(circle.center)).fold(circle.radius, f64::max);
         Self {
             input,
             options,
             lattice: lattice_for(circle),
-            reach: circle.radius,
-            pieces,
+            reach,
+            scene,
             sectors,
             wedges,
             areas,
+            deadline: Deadline::after(options.budget),
         }
     }
 
@@ -165,8 +170,8 @@ impl<'a> Mesher<'a> {
         Judge { near: self.options.near, far: self.options.far, wedges: &self.wedges }
     }
 
-    fn sites(&self) -> &'a [DVec2] {
-        self.input.points.sites()
+    fn sites(&self) -> &[DVec2] {
+        &self.scene.sites
     }
 
     /// Whether a triangle lies where no mesh could keep the bounds.
@@ -200,12 +205,13 @@ impl<'a> Mesher<'a> {
 
     fn kept(&self, strict: bool) -> Kept<'_> {
         Kept {
-            pieces: &self.pieces,
+            pieces: &self.scene.pieces,
             sectors: &self.sectors,
             sites: self.sites(),
             judge: self.judge(),
             areas: self.areas.as_ref(),
             strict,
+            deadline: &self.deadline,
         }
     }
 
@@ -214,13 +220,14 @@ impl<'a> Mesher<'a> {
     fn finished(&self, net: Net, retries: u32, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
         let parts = Parts {
             input: self.input,
-            pieces: &self.pieces,
+            scene: &self.scene,
             sectors: &self.sectors,
             judge: self.judge(),
             method: self.options.method,
+            deadline: &self.deadline,
         };
         let made = output::finish(net.clone(), &parts, retries, monitor)?;
-        if made.certificate.delaunay || !made.failed.is_empty() {
+        if made.certificate.delaunay || !made.failed.is_empty() || made.budget_spent {
             return Ok(made);
         }
         let again = compact(net, &self.kept(true), Effort::Repair, monitor)?;
@@ -235,8 +242,8 @@ impl<'a> Mesher<'a> {
         };
         let features = Features {
             sites: self.sites(),
-            pieces: &self.pieces,
-            input_of_site: self.input.points.input_of_site(),
+            pieces: &self.scene.pieces,
+            input_of_site: &self.scene.input_of_site,
             demands,
             limit: self.areas.as_ref().map(|_| &spacing as &dyn Fn(DVec2) -> f64),
             max_triangles: self.options.max_triangles,
@@ -252,13 +259,13 @@ impl<'a> Mesher<'a> {
         if dual.mesh.triangles.len() > self.options.max_triangles {
             return Err(too_many());
         }
-        let mut net = embed(Net::of(&dual.mesh), self.sites(), &self.pieces, monitor)?;
+        let mut net = embed(Net::of(&dual.mesh), &self.scene, monitor)?;
         carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
         if net.alive().next().is_none() {
             return Err(PslgError::NothingEnclosed);
         }
         let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
-        optimise(&mut net, self.judge(), &excused, monitor)?;
+        optimise(&mut net, self.judge(), &excused, &self.deadline, monitor)?;
         Ok(net)
     }
 }

@@ -2,6 +2,8 @@
 
 use hexdel_geom::AngleBounds;
 use hexdel_optimize::Effort;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// What part of the plane a mesh covers. Holes are left out of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,8 +54,12 @@ pub struct Options {
     /// The most triangles that may come to be.
     pub max_triangles: usize,
     /// How often the mesh is made anew with smaller triangles where bounds
-    /// were not met.
+    /// were not met. It ends before with the first time that is no better.
     pub retries: u32,
+    /// Wall-clock limit of what makes a mesh better once there is one. Without
+    /// one the result depends on the input alone; with one, also on the speed of
+    /// the machine.
+    pub budget: Option<Duration>,
 }
 
 impl Default for Options {
@@ -69,6 +75,7 @@ impl Default for Options {
             compact: Some(Effort::Standard),
             max_triangles: 50_000_000,
             retries: 4,
+            budget: None,
         }
     }
 }
@@ -121,10 +128,56 @@ impl Options {
         self
     }
 
+    /// With so much time.
+    #[must_use]
+    pub fn budget(mut self, budget: Option<Duration>) -> Self {
+        self.budget = budget;
+        self
+    }
+
     /// With at most so many triangles.
     #[must_use]
     pub fn max_triangles(mut self, limit: usize) -> Self {
         self.max_triangles = limit;
         self
+    }
+}
+
+/// When the time is up, if ever, and whether that has stopped any work.
+#[derive(Debug)]
+pub(crate) struct Deadline {
+    end: Option<Instant>,
+    spent: AtomicBool,
+}
+
+impl Deadline {
+    /// So long from now.
+    pub(crate) fn after(budget: Option<Duration>) -> Self {
+        // What no clock can tell never comes.
+        let end = budget.and_then(|budget| Instant::now().checked_add(budget));
+        Self { end, spent: AtomicBool::new(false) }
+    }
+
+    /// Whether there is no time for what comes next, which is then left undone.
+    pub(crate) fn is_over(&self) -> bool {
+        let over = self.end.is_some_and(|end| Instant::now() >= end);
+        if over {
+            self.spend();
+        }
+        over
+    }
+
+    /// The time that is left.
+    pub(crate) fn left(&self) -> Option<Duration> {
+        self.end.map(|end| end.saturating_duration_since(Instant::now()))
+    }
+
+    /// Work has been left undone.
+    pub(crate) fn spend(&self) {
+        self.spent.store(true, Ordering::Relaxed);
+    }
+
+    pub(crate) fn is_spent(&self) -> bool {
+        self.spent.load(Ordering::Relaxed)
     }
 }

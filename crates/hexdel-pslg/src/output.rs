@@ -2,26 +2,31 @@
 
 use crate::carve::flood;
 use crate::error::PslgError;
+use crate::fans::Scene;
 use crate::fit::count_rings;
 use crate::fit::edits::parameter;
 use crate::fit::judge::{FAR_RING, Judge, is_sector};
 use crate::net::{Kind, NONE, Net};
-use crate::options::SegmentMethod;
+use crate::options::{Deadline, SegmentMethod};
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
 use crate::sectors::{Sector, sector_near};
-use crate::validate::{Piece, Validated};
+use crate::validate::Validated;
 use hexdel_geom::delaunay::restore_constrained_delaunay;
 use hexdel_geom::monitor::{Monitor, check};
-use hexdel_geom::{CertifyOptions, DVec2, TriMesh, TriangleId, VertexId, certify, quality};
+use hexdel_geom::{
+    AngleBounds, CertifyOptions, DVec2, Pslg, TriMesh, TriangleId, VertexId, certify, quality,
+    settle_rounding,
+};
 use rustc_hash::FxHashSet;
 
 /// What the mesh was made of.
 pub(crate) struct Parts<'a> {
     pub(crate) input: &'a Validated,
-    pub(crate) pieces: &'a [Piece],
+    pub(crate) scene: &'a Scene,
     pub(crate) sectors: &'a [Sector],
     pub(crate) judge: Judge<'a>,
     pub(crate) method: SegmentMethod,
+    pub(crate) deadline: &'a Deadline,
 }
 
 /// Makes the result.
@@ -39,11 +44,7 @@ pub(crate) fn finish(
     check(monitor)?;
     // What templates make of segments is not Delaunay by design.
     if parts.method != SegmentMethod::Paper {
-        // Where that fails the certificate says so.
-        let free = |v: VertexId| net.vertex(numbers.first[v.index()]).kind == Kind::Free;
-        let _ = restore_constrained_delaunay(&mut mesh, parts.judge.near, free, |ends| {
-            !bound.contains(&sorted(ends))
-        });
+        settle(&mut net, &mut mesh, parts, &numbers, |ends| !bound.contains(&sorted(ends)));
     }
     let vertex_of_point = numbers.vertex_of_point(parts.input);
     let mut point_of_vertex = vec![None; mesh.vertices.len()];
@@ -67,7 +68,7 @@ pub(crate) fn finish(
     }
     Ok(PslgMesh {
         certificate: certify(&mesh, &options),
-        vertex_markers: vertex_markers(parts, &edges, &point_of_vertex),
+        vertex_markers: vertex_markers(&parts.input.pslg, &edges, &point_of_vertex),
         region_of_triangle: regions(&net, parts.input, &numbers),
         mesh,
         vertex_of_point,
@@ -78,7 +79,32 @@ pub(crate) fn finish(
         failed,
         method: parts.method,
         retries,
+        budget_spent: parts.deadline.is_spent(),
     })
+}
+
+/// Moves free vertices by units in the last place and flips edges that segments
+/// do not need, so that angles and the Delaunay property suffer no rounding.
+/// Where that fails the certificate says so.
+fn settle(
+    net: &mut Net,
+    mesh: &mut TriMesh,
+    parts: &Parts<'_>,
+    numbers: &Numbers,
+    may_flip: impl Fn([VertexId; 2]) -> bool,
+) {
+    let kind = |v: VertexId| net.vertex(numbers.first[v.index()]).kind;
+    let free = |v: VertexId| kind(v) == Kind::Free;
+    // What is below the lower bound is so for other reasons.
+    if let Ok(upper) = AngleBounds::new(0.0, parts.judge.near.max_deg()) {
+        settle_rounding(mesh, upper, free);
+    }
+    let _ = restore_constrained_delaunay(mesh, parts.judge.near, free, may_flip);
+    for (&v, &at) in numbers.first.iter().zip(&mesh.vertices) {
+        if net.at(v) != at {
+            net.move_to(v, at, net.vertex(v).kind);
+        }
+    }
 }
 
 fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {
@@ -158,7 +184,7 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
         for i in 0..3 {
             let (n, piece) = (tri.n[i], tri.s[i]);
             let boundary = n == NONE;
-            if !boundary && (piece == NONE || n < t) {
+            if !boundary && (!net.is_border(t, i) || n < t) {
                 continue;
             }
             let [a, b] = tri.edge(i);
@@ -176,7 +202,7 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
     found
         .into_iter()
         .map(|(piece, _, ends, boundary)| {
-            let segment = parts.pieces.get(piece as usize).map(|p| p.segment).filter(|&s| s != NONE);
+            let segment = parts.scene.pieces.get(piece as usize).map(|p| p.segment).filter(|&s| s != NONE);
             let marker = segment.and_then(|s| markers.get(s as usize)).copied().unwrap_or(0);
             let marker = if marker == 0 { i32::from(boundary) } else { marker };
             SegmentEdge { ends: ends.map(|v| numbers.vertex(v)), segment, marker, boundary }
@@ -184,11 +210,14 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
         .collect()
 }
 
-fn vertex_markers(parts: &Parts<'_>, edges: &[SegmentEdge], point_of_vertex: &[Option<u32>]) -> Vec<i32> {
-    let given = &parts.input.pslg.point_markers;
+/// A marker of each vertex of a mesh of a graph, as of
+/// [`PslgMesh::vertex_markers`], given the mesh's edges on segments and the
+/// boundary and for each vertex the point that it is.
+pub fn vertex_markers(pslg: &Pslg, edges: &[SegmentEdge], point_of_vertex: &[Option<u32>]) -> Vec<i32> {
+    let given = &pslg.point_markers;
     let own = |p: &Option<u32>| p.and_then(|p| given.get(p as usize)).copied().unwrap_or(0);
     let mut markers: Vec<i32> = point_of_vertex.iter().map(own).collect();
-    let segment_markers = &parts.input.pslg.segment_markers;
+    let segment_markers = &pslg.segment_markers;
     let of_segment = |e: &SegmentEdge| e.segment.and_then(|s| segment_markers.get(s as usize)).copied();
     for (e, marker) in edges.iter().map(|e| (e, of_segment(e).unwrap_or(0))) {
         for v in e.ends {
@@ -235,14 +264,14 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         let triangle = TriangleId::new(numbers.triangle[t as usize] as usize);
         Exception { triangle, at, angles_deg: [min, max], reason }
     };
-    let point = |site: u32| parts.input.points.input_of_site()[site as usize];
+    let point = |site: u32| parts.scene.input_of_site[site as usize];
     let failed = net.alive().filter(|&t| parts.judge.is_out(net, t));
     let failed = failed.map(|t| {
         let is_near = || net.tri(t).v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
         if parts.method == SegmentMethod::Paper && is_near() {
             return entry(t, Reason::Template);
         }
-        let near = sector_near(net.corners(t), parts.sectors, parts.input.points.sites());
+        let near = sector_near(net.corners(t), parts.sectors, &parts.scene.sites);
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
             point: point(sector.site),
             angle_deg: sector.angle_deg,
@@ -252,7 +281,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     });
     let failed: Vec<Exception> = failed.collect();
     let narrow = |t: u32| {
-        let (sector, _) = sector_near(net.corners(t), parts.sectors, parts.input.points.sites())?;
+        let (sector, _) = sector_near(net.corners(t), parts.sectors, &parts.scene.sites)?;
         Some(Reason::Sector { point: point(sector.site), angle_deg: sector.angle_deg })
     };
     let sector = |t: u32| {

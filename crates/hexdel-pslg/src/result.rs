@@ -36,6 +36,8 @@ pub struct PslgMesh {
     pub method: SegmentMethod,
     /// How often the mesh was made anew.
     pub retries: u32,
+    /// Whether the budget ended the work before its end.
+    pub budget_spent: bool,
 }
 
 /// An edge on a segment or on the boundary.

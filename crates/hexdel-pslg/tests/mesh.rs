@@ -2,25 +2,13 @@
 
 mod support;
 
-use hexdel_geom::{AngleBounds, DVec2, Pslg, Region, Unwatched, quality};
+use hexdel_geom::{DVec2, Pslg, Region, Unwatched};
 use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, Reason, mesh, repair, validate};
+use support::{append, chain};
 
 fn made(pslg: &Pslg, options: &Options) -> PslgMesh {
     let valid = validate(pslg).expect("the graph is planar");
     mesh(&valid, options, &Unwatched).expect("the graph can be meshed")
-}
-
-fn chain(points: &[(f64, f64)], closed: bool) -> Pslg {
-    let mut pslg = Pslg::from_points(points.iter().map(|&(x, y)| DVec2::new(x, y)).collect());
-    let n = points.len() as u32;
-    pslg.segments = (0..n - u32::from(!closed)).map(|i| [i, (i + 1) % n]).collect();
-    pslg
-}
-
-fn append(to: &mut Pslg, other: &Pslg) {
-    let base = to.points.len() as u32;
-    to.points.extend(&other.points);
-    to.segments.extend(other.segments.iter().map(|s| s.map(|p| p + base)));
 }
 
 fn square(at: f64, side: f64) -> Pslg {
@@ -54,41 +42,14 @@ fn families_keep_their_bounds() {
 #[test]
 fn two_rings_away_the_plain_bounds_hold() {
     let pslg = support::family("letter R", 7);
-    assert!(far_triangles(&made(&pslg, &Options::new().compact(None))) > 200);
-    assert!(far_triangles(&made(&pslg, &Options::new().max_area(0.01))) > 100);
-    assert!(far_triangles(&made(&pslg, &Options::new())) > 0);
-}
-
-/// How many triangles have all corners two edges or more away from the graph;
-/// they keep the bounds of the plain mesh.
-fn far_triangles(made: &PslgMesh) -> u32 {
-    let mut ring = vec![u32::MAX; made.mesh.vertices.len()];
-    for v in made.edges.iter().filter(|e| e.segment.is_some()).flat_map(|e| e.ends) {
-        ring[v.index()] = 0;
-    }
-    for v in made.vertex_of_point.iter().flatten() {
-        ring[v.index()] = 0;
-    }
-    for step in 1..3 {
-        for t in &made.mesh.triangles {
-            if t.iter().any(|v| ring[v.index()] == step - 1) {
-                for v in t {
-                    ring[v.index()] = ring[v.index()].min(step);
-                }
-            }
-        }
-    }
-    let mut far: u32 = 0;
-    for (i, t) in made.mesh.triangles.iter().enumerate() {
-        if t.iter().all(|v| ring[v.index()] >= 2) {
-            far += 1;
-            let corners = made.mesh.corners(hexdel_geom::TriangleId::new(i));
-            let angles = quality::angles_deg(corners);
-            let least = AngleBounds::EXTENDED.min_deg() - 1e-9;
-            assert!(angles.iter().all(|&a| a >= least && a <= 90.0 + 1e-9), "{corners:?} {angles:?}");
-        }
-    }
-    far
+    let far = |options: Options| {
+        let (far, out) = support::far_triangles(&made(&pslg, &options));
+        assert_eq!(out, 0, "{options:?}");
+        far
+    };
+    assert!(far(Options::new().compact(None)) > 200);
+    assert!(far(Options::new().max_area(0.01)) > 100);
+    assert!(far(Options::new()) > 0);
 }
 
 #[test]

@@ -100,7 +100,7 @@ impl Placement {
     /// A single site has no scale of its own: a patch of radius 1 or, far away,
     /// as small as coordinates resolve there.
     fn of_one(site: DVec2, radius: Option<f64>) -> Result<Self, Error> {
-        let least = finest_spacing(site);
+        let least = finest_spacing(site).max(1.0 / MAX_COORDINATE);
         let (spacing, steps) = match radius {
             Some(radius) => (radius / f64::from(STEPS[0]), Some(STEPS[0])),
             None => (least.max(1.0), None),
@@ -195,9 +195,14 @@ fn check_resolved(points: &PointSet, pair: &ClosestPair) -> Result<(), Error> {
     let sites = points.sites();
     let size = |site: &DVec2| site.abs().max_element();
     let mut beyond = sites.iter().map(size).fold(0.0, f64::max);
+    let mut looked_at = 0;
     while pair.distance < finest_spacing(DVec2::splat(beyond)) * CONFLICT_REACH {
         beyond *= 0.5;
         let indices: Vec<usize> = (0..sites.len()).filter(|&i| size(&sites[i]) >= beyond).collect();
+        // The same points have the same closest pair.
+        if std::mem::replace(&mut looked_at, indices.len()) == indices.len() {
+            continue;
+        }
         let far: Vec<DVec2> = indices.iter().map(|&i| sites[i]).collect();
         if let Some(found) = closest_pair(&far) {
             check_pair(points, &ClosestPair { a: indices[found.a], b: indices[found.b], ..found })?;

@@ -6,6 +6,7 @@
 mod common;
 
 use common::{Copy, refused};
+use hexdel::size::SizeError;
 use hexdel::{DVec2, Effort, Mesher, Outcome, PointId, Session, SessionError, Size, generate};
 use proptest::prelude::*;
 
@@ -172,7 +173,15 @@ fn bad_calls_are_named_and_change_nothing() {
         let size = Size::function(move |_| bad);
         assert!(matches!(refused(s, |s| s.set_size(Some(size))), SessionError::Size(_)));
     }
-    for (centre, radius) in [(DVec2::ZERO, 0.0), (DVec2::ZERO, f64::NAN), (DVec2::splat(1e20), 1.0)] {
+    // Far finer than any triangle that there is before would tell.
+    let hidden = Size::unlimited().and_box(at, at + 0.02, 1e-6).unwrap();
+    assert!(matches!(
+        refused(s, |s| s.set_size(Some(hidden))),
+        SessionError::Size(SizeError::TooMany { .. })
+    ));
+    for (centre, radius) in
+        [(DVec2::ZERO, 5e-324), (DVec2::ZERO, 0.0), (DVec2::ZERO, f64::NAN), (DVec2::splat(1e20), 1.0)]
+    {
         let refused = Session::empty(centre, radius);
         assert!(matches!(refused, Err(SessionError::InvalidDomain { .. })), "{radius}");
     }
@@ -231,6 +240,10 @@ fn texts_that_are_no_sessions_are_refused() {
         ("radius:", "radius:-"),
         ("slope:0.5", "slope:0.0"),
         ("Constant(0.3)", "Constant(0.0)"),
+        ("Constant(0.3)", "Constant(0.2)"),
+        ("Constant(0.3)", "Constant(1e-30)"),
+        ("max_deg:90.0", "max_deg:NaN"),
+        ("max_deg:90.0", "max_deg:inf"),
         ("free_vertices:[", "free_vertices:[0,"),
         ("Fixed", "Free"),
         ("points:[Some(", "points:[Some(9"),

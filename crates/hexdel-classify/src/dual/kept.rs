@@ -133,9 +133,8 @@ impl KeptDual {
         let mut seen: Vec<BTreeSet<TileId>> = vec![BTreeSet::new(); grid.tiles().levels() + 1];
         for &(level, id, bits) in changed.iter().filter(|c| c.0 >= base) {
             let seen = &mut seen[usize::from(level)];
-            grid.tiles_mut().require_margin(level, id, bits, |tile| {
-                seen.insert(tile);
-            });
+            let margin = grid.tiles_mut().require_margin(level, id, bits);
+            seen.extend(margin.iter().filter(|(_, reached)| *reached).map(|(tile, _)| tile));
         }
         for level in base..seen.len() as u8 {
             let tiles = std::mem::take(&mut seen[usize::from(level)]);

@@ -120,6 +120,11 @@ impl<'a> Layout<'a> {
         &self.blocks[usize::from(level)][id.index()]
     }
 
+    /// The same, for a tile that may lie below the finest level of the mesh.
+    pub(super) fn block_if_any(&self, level: u8, id: TileId) -> Option<&Block> {
+        self.blocks.get(usize::from(level))?.get(id.index())
+    }
+
     /// The lattice triangles that a tile owns, pointing up and down.
     pub(super) fn walks(&self, level: u8, id: TileId) -> [Walk; 2] {
         let tiles = self.grid.tiles();

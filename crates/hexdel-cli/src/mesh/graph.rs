@@ -74,7 +74,11 @@ impl Finished<'_> {
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));
         }
-        Ok(if made.holds() { Verdict::Holds } else { Verdict::Fails })
+        Ok(match (made.budget_spent, made.holds()) {
+            (true, _) => Verdict::Spent,
+            (false, true) => Verdict::Holds,
+            (false, false) => Verdict::Fails,
+        })
     }
 }
 
@@ -133,9 +137,11 @@ fn summary(made: &PslgTriangulation, report: &PslgReport<'_>) -> String {
     // What the paper's templates do near segments is no failure of theirs.
     let name = if report.holds { "beyond" } else { "FAILED" };
     list(&mut text, name, &report.failed);
+    let spent =
+        if made.budget_spent { "budget     spent before the mesh was as good as can be\n" } else { "" };
     let _ = write!(
         text,
-        "{}  {}\nseconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
+        "{}  {}\n{spent}seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
         if report.holds { "certified" } else { "NOT SO   " },
         promises(made),
         made.seconds.total,

@@ -54,7 +54,7 @@ pub(crate) struct Args {
     /// How hard compact tries: fast, standard or best
     #[arg(long, value_enum, default_value_t = EffortName::Standard, hide_possible_values = true)]
     effort: EffortName,
-    /// Time compact may take; spent, it exits with 3 [default: as it takes]
+    /// Time to optimise; when it is spent, exits with 3 [default: as it takes]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     budget: Option<Duration>,
     /// Smallest angle allowed [default: the method's; 30 at segments]

@@ -72,7 +72,18 @@ fn methods_and_ways_are_at_choice() {
     assert!(triangles(&compact) < triangles(&templates));
     let paper = report("--pslg paper");
     assert_eq!((&paper["method"], &compact["method"]), (&"paper".into(), &"conform".into()));
-    bench.run(&format!("mesh {input} -o m.ele --budget 1")).refused("a budget is for points");
+}
+
+#[test]
+fn a_budget_that_is_spent_leaves_a_mesh_with_all_segments() {
+    let bench = Bench::new();
+    let input = graph("airfoil");
+    let run = bench.run(&format!("mesh {input} -q -o m.ele --report r.json --budget 0"));
+    assert_eq!(run.code, 3, "{}", run.err);
+    let report = bench.json("r.json");
+    assert_eq!((&report["budget_spent"], &report["segments_missing"]), (&true.into(), &0.into()));
+    bench.run(&format!("mesh {input} -q -o m.ele --report r.json --budget 3600")).fine();
+    assert_eq!(bench.json("r.json")["budget_spent"], false);
 }
 
 #[test]

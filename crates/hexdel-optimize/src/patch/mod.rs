@@ -17,7 +17,7 @@ use crate::constraints::Rules;
 use crate::mesh::{Mesh, Motion, NONE};
 
 pub(crate) use newton::Newton;
-pub(crate) use project::Sweeps;
+pub(crate) use project::{Sweeps, Swept};
 
 /// A corner outside the target.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +35,11 @@ pub(crate) struct State {
     pub(crate) energy: f64,
     /// Every triangle is strictly inside the bounds.
     pub(crate) solved: bool,
+}
+
+impl State {
+    /// That of a patch that is not worth more work.
+    pub(crate) const HOPELESS: Self = Self { energy: f64::INFINITY, solved: false };
 }
 
 /// A patch under work; storage is reused from patch to patch.
@@ -70,6 +75,8 @@ pub(crate) struct Patch {
     /// Corners outside the target at `pos`, once evaluated.
     active: Vec<Active>,
     newton: Newton,
+    /// Triangles that projection sweeps went over.
+    visits: u64,
 }
 
 impl Patch {
@@ -208,6 +215,11 @@ impl Patch {
     /// Whether triangle `t` of the mesh belongs to the patch.
     pub(crate) fn holds(&self, t: u32) -> bool {
         self.seen.get(t as usize) == Some(&self.epoch)
+    }
+
+    /// Triangles that projection sweeps went over since the patch was made.
+    pub(crate) fn visits(&self) -> u64 {
+        self.visits
     }
 
     /// Newton steps since the patch was made.

@@ -159,7 +159,7 @@ pub(crate) fn is_starved(net: &Net, v: u32) -> bool {
 
 /// The penalty of a triangle against limits.
 pub(crate) fn penalty(corners: [DVec2; 3], limits: [Limits; 3]) -> f64 {
-    let tolerance = TOLERANCE_DEG + rounding_deg(corners);
+    let tolerance = TOLERANCE_DEG + quality::rounding_deg(corners);
     let angles = quality::angles_deg(corners);
     (0..3)
         .map(|i| {
@@ -167,14 +167,4 @@ pub(crate) fn penalty(corners: [DVec2; 3], limits: [Limits; 3]) -> f64 {
             if past > tolerance { past * past } else { 0.0 }
         })
         .sum()
-}
-
-/// What rounding the corners alone may do to an angle, degrees: no more than
-/// the certificate grants.
-///
-/// It grants `ulp(x) (1/|ab| + 1/|ac|)` radians at least, `ulp(x) >= eps |x| / 2`.
-fn rounding_deg([a, b, c]: [DVec2; 3]) -> f64 {
-    let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
-    let longest_sq = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-    (largest * f64::EPSILON / longest_sq.sqrt()).to_degrees()
 }

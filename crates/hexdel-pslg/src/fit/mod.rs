@@ -19,6 +19,7 @@ pub(crate) mod levenberg;
 pub(crate) mod patch;
 
 use crate::net::{Kind, NONE, Net};
+use crate::options::Deadline;
 use edits::{Edit, edits};
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
 use judge::{FAR_RING, Judge, is_starved};
@@ -75,7 +76,8 @@ pub(crate) fn bad_triangles(net: &Net, judge: Judge<'_>) -> Vec<u32> {
     net.alive().filter(|&t| judge.penalty(net, t) > 0.0).collect()
 }
 
-/// Optimises until all triangles keep their bounds or the sweeps are used up.
+/// Optimises until all triangles keep their bounds, the sweeps are used up or the
+/// time is over.
 /// Triangles that are `excused`, because their surroundings have no room, get a
 /// part of the effort only.
 ///
@@ -86,6 +88,7 @@ pub(crate) fn optimise(
     net: &mut Net,
     judge: Judge<'_>,
     excused: &dyn Fn(&Net, u32) -> bool,
+    deadline: &Deadline,
     monitor: &dyn Monitor,
 ) -> Result<(), Cancelled> {
     let mut solver = Levenberg::default();
@@ -96,6 +99,9 @@ pub(crate) fn optimise(
         let bad = bad_triangles(net, judge);
         for (i, &t) in bad.iter().enumerate() {
             watch(monitor, i, bad.len())?;
+            if deadline.is_over() {
+                break;
+            }
             mend(net, judge, t, reach, ring, &mut solver);
         }
     }
@@ -108,6 +114,9 @@ pub(crate) fn optimise(
             watch(monitor, i, bad.len())?;
             if !net.tri(t).alive() || judge.penalty(net, t) == 0.0 || (sweep > 0 && excused(net, t)) {
                 continue;
+            }
+            if deadline.is_over() {
+                break;
             }
             let cost = if depth > 1 { DEEP_COST } else { 1 };
             if budget >= cost {

@@ -27,11 +27,12 @@ mod rules;
 use crate::areas::AreaLimits;
 use crate::carve::carve;
 use crate::error::PslgError;
+use crate::fans;
 use crate::fit::judge::{Judge, Wedges};
 use crate::hull::with_hull;
 use crate::mesher::{AREA_PER_SPACING_SQ, demand_at};
 use crate::net::{Kind, Net};
-use crate::options::{Extent, Options};
+use crate::options::{Deadline, Extent, Options};
 use crate::output::{self, Parts};
 use crate::result::PslgMesh;
 use crate::sizing::{Demand, Features, lattice_for, refine};
@@ -85,7 +86,11 @@ pub(crate) fn mesh(
     check(monitor)?;
     let wedges = Wedges::default();
     let judge = Judge { near: options.near, far: options.far, wedges: &wedges };
-    let parts = Parts { input, pieces: &pieces, sectors: &[], judge, method: options.method };
+    // Nothing here takes time that could be spared.
+    let deadline = Deadline::after(None);
+    let plain = fans::Scene::plain(input, pieces.clone());
+    let parts =
+        Parts { input, scene: &plain, sectors: &[], judge, method: options.method, deadline: &deadline };
     output::finish(net, &parts, attempt, monitor)
 }
 

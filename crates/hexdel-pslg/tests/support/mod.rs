@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each of them uses a part")]
 #![allow(unreachable_pub, reason = "it is a module of several programs")]
 
-use hexdel_geom::{DVec2, Pslg};
+use hexdel_geom::{AngleBounds, DVec2, Pslg, TriangleId, quality};
 use std::f64::consts::TAU;
 
 /// A small generator of pseudo-random numbers (splitmix64).
@@ -86,14 +86,14 @@ pub fn family(name: &str, seed: u64) -> Pslg {
     pslg
 }
 
-fn chain(points: &[DVec2], closed: bool) -> Pslg {
-    let mut pslg = Pslg::from_points(points.to_vec());
+pub(crate) fn chain<P: Copy + Into<DVec2>>(points: &[P], closed: bool) -> Pslg {
+    let mut pslg = Pslg::from_points(points.iter().map(|&p| p.into()).collect());
     let n = points.len() as u32;
     pslg.segments = (0..n - u32::from(!closed)).map(|i| [i, (i + 1) % n]).collect();
     pslg
 }
 
-fn append(to: &mut Pslg, other: &Pslg) {
+pub(crate) fn append(to: &mut Pslg, other: &Pslg) {
     let base = to.points.len() as u32;
     to.points.extend(&other.points);
     to.segments.extend(other.segments.iter().map(|s| s.map(|p| p + base)));
@@ -274,6 +274,34 @@ pub fn random_graph(seed: u64) -> Pslg {
         pslg.holes.push(random.point(1.0));
     }
     pslg
+}
+
+/// How many triangles have all corners two edges or more away from points and
+/// segments, and how many of those do not keep the bounds of the plain mesh.
+pub fn far_triangles(made: &hexdel_pslg::PslgMesh) -> (u32, u32) {
+    let mut ring = vec![u32::MAX; made.mesh.vertices.len()];
+    for v in made.edges.iter().filter(|e| e.segment.is_some()).flat_map(|e| e.ends) {
+        ring[v.index()] = 0;
+    }
+    for v in made.vertex_of_point.iter().flatten() {
+        ring[v.index()] = 0;
+    }
+    for step in 1..3 {
+        for t in &made.mesh.triangles {
+            if t.iter().any(|v| ring[v.index()] == step - 1) {
+                for v in t {
+                    ring[v.index()] = ring[v.index()].min(step);
+                }
+            }
+        }
+    }
+    let far = (0..made.mesh.triangles.len())
+        .filter(|&t| made.mesh.triangles[t].iter().all(|v| ring[v.index()] >= 2));
+    let least = AngleBounds::EXTENDED.min_deg() - 1e-9;
+    far.fold((0, 0), |(far, out), t| {
+        let angles = quality::angles_deg(made.mesh.corners(TriangleId::new(t)));
+        (far + 1, out + u32::from(!angles.iter().all(|&a| a >= least && a <= 90.0 + 1e-9)))
+    })
 }
 
 /// Whether a mesh is valid and has all points and segments of a graph in it,

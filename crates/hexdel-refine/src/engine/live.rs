@@ -13,13 +13,13 @@
 //!
 //! Every write is noted with what was there before, to be taken back.
 
-use super::{RefineError, Refiner};
+use super::{LOOSE, OPEN, RefineError, Refiner, UNPROJECTED};
 use crate::rule::{RuleSet, Situation};
 use crate::sites::Site;
 use hexdel_classify::{Occupant, View};
 use hexdel_geom::{DVec2, Unwatched};
 use hexdel_grid::grid::hex_of;
-use hexdel_grid::tiles::SIDE;
+use hexdel_grid::tiles::{Margin, SIDE};
 use hexdel_grid::window::ones;
 use hexdel_grid::{Address, Grid, Hex, Lattice, TileId};
 use std::collections::BTreeMap;
@@ -223,7 +223,8 @@ impl Refiner {
 
     fn occupant_at(&self, id: u32) -> Occupant {
         let site = self.sites.get(id);
-        Occupant { level: site.level, at: site.at, tile: self.sites.tile_of(id), point: site.point }
+        let at = self.grid.lattice().locate(site.level, site.point);
+        Occupant { level: site.level, at, tile: self.sites.tile_of(id), point: site.point }
     }
 
     /// The points in a tile, in no particular order.
@@ -265,9 +266,12 @@ impl Refiner {
     /// Takes changes back: the last ones not taken back yet. What is pending
     /// after an error is forgotten.
     pub fn revert(&mut self, changes: &Changes) {
-        for queue in self.open.iter_mut().chain(&mut self.unprojected).chain(&mut self.loose) {
-            queue.take();
+        for queues in &mut self.waiting {
+            for set in [OPEN, UNPROJECTED, LOOSE] {
+                queues.take(set, TileId::new);
+            }
         }
+        self.take_moving();
         for &id in changes.sites.keys() {
             if self.is_there(id) {
                 let (level, tile) = (self.sites.get(id).level, self.sites.tile_of(id));
@@ -308,12 +312,14 @@ impl Refiner {
         let Some(live) = &mut self.live else {
             return;
         };
-        let unprojected = &mut self.unprojected[usize::from(level)];
+        let waiting = &mut self.waiting[usize::from(level)];
         for &(id, before) in merged {
             let now = Planes::of(&self.grid, level, id);
             live.tiles.entry((level, id)).or_insert(Planes { subdivided: before, ..now });
             let bits = before ^ now.subdivided;
-            self.grid.tiles_mut().require_margin(level, id, bits, |tile| unprojected.push(tile));
+            for tile in reached(self.grid.tiles_mut().require_margin(level, id, bits)) {
+                waiting.push(tile.index(), [false, true, false]);
+            }
         }
     }
 
@@ -341,7 +347,7 @@ impl Refiner {
     pub(super) fn reset(&mut self, level: u8, lost: Vec<(TileId, u64)>) {
         let mut seen = Vec::new();
         for (id, bits) in lost {
-            self.grid.tiles_mut().require_margin(level, id, bits, |tile| seen.push(tile));
+            seen.extend(reached(self.grid.tiles_mut().require_margin(level, id, bits)));
         }
         seen.sort_unstable();
         seen.dedup();
@@ -379,15 +385,12 @@ impl Refiner {
                 return Err(RestoreError::OutOfRange { level, first });
             }
             let (id, _) = refiner.grid.tile_of(Address::new(level, first));
-            refiner.grid.tiles_mut().require_margin(level, id, u64::MAX, |_| {});
+            refiner.grid.tiles_mut().require_margin(level, id, u64::MAX);
             refiner.grid.tiles_mut().get_mut(level, id).subdivided = bits;
         }
         refiner.restore_sites(sites)?;
         // The queues are as long as there are levels.
-        let levels = refiner.grid.tiles().levels();
-        for queues in [&mut refiner.open, &mut refiner.unprojected, &mut refiner.loose] {
-            queues.resize_with(levels, Default::default);
-        }
+        refiner.waiting.resize_with(refiner.grid.tiles().levels(), Default::default);
         if let Some((at, rule)) = refiner.violation() {
             return Err(RestoreError::Rule { at, rule });
         }
@@ -407,12 +410,12 @@ impl Refiner {
                 return Err(RestoreError::NoLeaf { site: i, level });
             }
             let (tile, bit) = self.grid.tile_of(at);
-            self.grid.tiles_mut().require_margin(level, tile, 1 << bit, |_| {});
+            self.grid.tiles_mut().require_margin(level, tile, 1 << bit);
             let planes = self.grid.tiles_mut().get_mut(level, tile);
             if (planes.subdivided | planes.marks[0] | planes.marks[1]) >> bit & 1 == 1 {
                 return Err(RestoreError::NoLeaf { site: i, level });
             }
-            planes.marks[site.plane()] |= 1 << bit;
+            planes.marks[site.plane(&lattice)] |= 1 << bit;
             let id = self.sites.ids()[i];
             *self.sites.get_mut(id) = site;
             self.sites.enter(id, tile);
@@ -449,6 +452,12 @@ const FARTHEST: u64 = 1 << 50;
 
 fn is_far(hex: Hex) -> bool {
     hex.q.unsigned_abs().max(hex.r.unsigned_abs()) > FARTHEST
+}
+
+/// The tiles within reach of a change.
+fn reached(margin: Margin) -> impl Iterator<Item = TileId> {
+    let all: Vec<(TileId, bool)> = margin.iter().collect();
+    all.into_iter().filter(|(_, reached)| *reached).map(|(tile, _)| tile)
 }
 
 /// The bit of a hexagon in its tile.

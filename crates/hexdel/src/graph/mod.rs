@@ -299,7 +299,6 @@ impl Mesher {
             ("the size of edges", self.size.is_some()),
             ("meshing without coarsening", self.without_coarsening),
             ("a size", self.size.is_some()),
-            ("a budget", self.budget.is_some()),
         ];
         match given.into_iter().find(|(_, given)| *given) {
             Some((option, _)) => Err(Error::NotForGraphs { option }),
@@ -307,7 +306,7 @@ impl Mesher {
         }
     }
 
-    fn pslg_options(&self, domain: Domain) -> Options {
+    pub(crate) fn pslg_options(&self, domain: Domain) -> Options {
         let effort = (self.method == Method::Compact).then_some(self.effort);
         let mut options = Options::new().extent(domain.extent()).compact(effort);
         options.method = self.graph.segments.unwrap_or_default();
@@ -318,6 +317,7 @@ impl Mesher {
             options.near = near;
         }
         options.max_area = self.graph.max_area;
+        options.budget = self.budget;
         options
     }
 }

@@ -41,6 +41,8 @@ pub struct PslgReport<'a> {
     pub repairs: Vec<RepairEntry>,
     /// How often parts of the grid were refined because bounds were not met.
     pub retries: u32,
+    /// Whether the budget ended optimisation before its end.
+    pub budget_spent: bool,
     /// How long it took.
     pub seconds: Seconds,
 }
@@ -106,6 +108,7 @@ impl<'a> PslgReport<'a> {
             failed: entries(&made.failed),
             repairs: repairs.map(RepairEntry::new).collect(),
             retries: made.retries,
+            budget_spent: made.budget_spent,
             seconds: made.seconds,
         }
     }

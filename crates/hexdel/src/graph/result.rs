@@ -55,6 +55,9 @@ pub struct PslgTriangulation {
     pub method: SegmentMethod,
     /// How often parts of the grid were refined because bounds were not met.
     pub retries: u32,
+    /// Whether the budget ended optimisation before its end. Triangles may have
+    /// failed that would not have otherwise.
+    pub budget_spent: bool,
     /// How long it took.
     pub seconds: Seconds,
 }
@@ -84,6 +87,7 @@ impl PslgTriangulation {
             domain,
             method: made.method,
             retries: made.retries,
+            budget_spent: made.budget_spent,
             seconds,
         }
     }
