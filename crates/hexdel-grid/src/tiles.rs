@@ -255,6 +255,11 @@ impl Tiles {
         )
     }
 
+    /// The existing tiles among the 3 x 3 around, itself included.
+    pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
+        self.get(level, id).around.into_iter().filter_map(TileId::some)
+    }
+
     /// Makes the tiles exist whose window shows one of `bits`, and says which of
     /// them lie within [`Window::MARGIN`] steps of one.
     #[inline]

@@ -26,8 +26,10 @@ use hexdel_grid::{Grid, Hex, TileId, Window};
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Merges what no finer level needs in the given tiles of a closed level.
-pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &RuleSet) {
+/// Merges what no finer level needs in the given tiles of a closed level. Returns
+/// the tiles that changed and what was subdivided in them before; a tile that
+/// changed several times comes as often, in order.
+pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &RuleSet) -> Vec<(TileId, u64)> {
     let mut colours: [Vec<TileId>; 9] = Default::default();
     for &id in tiles {
         let tile = grid.tiles().get(level, id);
@@ -35,13 +37,16 @@ pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &Rule
             colours[colour(tile.first())].push(id);
         }
     }
+    let mut changed = Vec::new();
     for tiles in colours {
         let merged: Vec<_> =
             tiles.into_par_iter().map(|id| Patch::of(grid, level, id).coarsened(rules)).collect();
         for (id, subdivided) in merged.into_iter().flatten() {
-            grid.tiles_mut().get_mut(level, id).subdivided = subdivided;
+            let tile = grid.tiles_mut().get_mut(level, id);
+            changed.push((id, std::mem::replace(&mut tile.subdivided, subdivided)));
         }
     }
+    changed
 }
 
 /// One of nine colours: tiles of the same colour are three apart. A tile's

@@ -15,6 +15,8 @@
 //! threads. A tile is asked again only after a change, so the work is in
 //! proportion to what changes: near-linear in the output.
 
+mod live;
+
 use crate::coarsen;
 use crate::queue::Queues;
 use crate::rule::{RuleSet, Situation};
@@ -27,6 +29,8 @@ use hexdel_grid::window::ones;
 use hexdel_grid::{Address, Grid, Lattice, TileId};
 use rayon::prelude::*;
 use thiserror::Error;
+
+pub use live::{Changes, RestoreError};
 
 /// Why points cannot be refined for.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -63,6 +67,8 @@ pub struct Refiner {
     moving: Queues<1>,
     /// Tiles asked so far, for progress.
     asked: u64,
+    /// What changes, if points come and go: then demands shrink as well.
+    live: Option<Changes>,
 }
 
 /// Tiles whose rules must be asked again.
@@ -93,6 +99,7 @@ impl Refiner {
             waiting: Vec::new(),
             moving: Queues::default(),
             asked: 0,
+            live: None,
         }
     }
 
@@ -259,7 +266,8 @@ impl Refiner {
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
             let tiles = self.waiting[usize::from(level)].take(LOOSE, TileId::new);
-            coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+            let merged = coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+            self.note_merged(level, &merged);
         }
     }
 
@@ -280,15 +288,21 @@ impl Refiner {
             // lies beside.
             (id, self.rules.must_exist(&situation).dilated().even_centre())
         };
+        let shrinking = self.live.is_some();
         let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
-        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| *d != 0).collect();
+        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| shrinking || *d != 0).collect();
+        let mut lost = Vec::new();
         for (id, demand) in demands {
             let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
             let bits = in_quadrant(demand, quadrant);
-            let tile = self.grid.tiles_mut().get_mut(coarser, parent);
-            tile.needed |= bits;
+            if shrinking {
+                lost.extend(self.replace_needed(coarser, parent, (quadrant, bits)));
+            } else {
+                self.grid.tiles_mut().get_mut(coarser, parent).needed |= bits;
+            }
             self.subdivide(coarser, parent, bits);
         }
+        self.reset(coarser, lost);
         self.sink()
     }
 
@@ -303,6 +317,7 @@ impl Refiner {
 
     /// The same without noting the change; returns what was not subdivided yet.
     fn mark_subdivided(&mut self, level: u8, id: TileId, bits: u64) -> u64 {
+        self.note(level, id);
         let tile = self.grid.tiles_mut().get_mut(level, id);
         let bits = bits & !tile.subdivided;
         tile.subdivided |= bits;
@@ -310,6 +325,7 @@ impl Refiner {
         tile.marks = tile.marks.map(|plane| plane & !bits);
         for bit in ones(occupied) {
             let site = self.sites.leave(level, id, bit).expect("a marked hexagon has an occupant");
+            self.note_site(site);
             self.moving.push(site as usize, [true]);
         }
         bits
@@ -374,6 +390,7 @@ impl Refiner {
             self.moving.push(site as usize, [true]);
             return self.mark_subdivided(level, id, 1 << bit);
         }
+        self.note(level, id);
         let plane = self.sites.get(site).plane(self.grid.lattice());
         self.grid.tiles_mut().get_mut(level, id).marks[plane] |= 1 << bit;
         self.sites.enter(site, id);

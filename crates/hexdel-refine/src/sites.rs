@@ -101,6 +101,35 @@ impl Sites {
         self.rank.iter().position(|&r| r == id).expect("every site was added")
     }
 
+    /// The site id of each point, in the order of adding.
+    pub(crate) fn ids(&self) -> &[u32] {
+        &self.rank
+    }
+
+    /// The tile that a site was last put into.
+    pub(crate) fn tile_of(&self, id: u32) -> TileId {
+        self.tile[id as usize]
+    }
+
+    /// Forgets the sites from `len` on, which occupy nothing.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.all.truncate(len);
+        self.rank.truncate(len);
+        self.tile.truncate(len);
+        self.next.truncate(len);
+    }
+
+    /// The sites that occupy hexagons of a tile.
+    pub(crate) fn of_tile(&self, level: u8, tile: TileId) -> impl Iterator<Item = u32> + '_ {
+        let heads = self.heads.get(usize::from(level)).and_then(|heads| heads.get(tile.index()));
+        let mut id = heads.copied().unwrap_or(NONE);
+        std::iter::from_fn(move || {
+            let found = (id != NONE).then_some(id)?;
+            id = self.next[found as usize];
+            Some(found)
+        })
+    }
+
     /// Notes that a site occupies its hexagon, which is one of `tile`.
     #[inline]
     pub(crate) fn enter(&mut self, id: u32, tile: TileId) {

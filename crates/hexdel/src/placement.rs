@@ -22,6 +22,10 @@ const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
 /// Largest coordinate: predicates take products of four, and of differences.
 pub(crate) const MAX_COORDINATE: f64 = 1e70;
 
+/// Steps of a session's domain that coordinates must resolve: a hundred levels
+/// of halving would not be seen.
+pub(crate) const FINEST: f64 = 1024.0;
+
 /// Spacings of the finest level that a coordinate's last place must fit into.
 /// An angle is then off by about `2^-15` radians, two thousandths of a degree,
 /// at the very worst, and reported as limited by rounding.

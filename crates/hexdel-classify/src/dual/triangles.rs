@@ -118,16 +118,8 @@ impl<'a> OwnerTile<'a> {
                 if seen == 0 {
                     continue;
                 }
-                if column == 0 {
-                    // Whole rows: one rank is enough.
-                    let first = block.vertex(seen.trailing_zeros()).index() as u32;
-                    for (bit, vertex) in ones(seen).zip(first..) {
-                        ids[place(corner + hex_of(bit))] = vertex;
-                    }
-                } else {
-                    for bit in ones(seen) {
-                        ids[place(corner + hex_of(bit))] = block.vertex(bit).index() as u32;
-                    }
+                for bit in ones(seen) {
+                    ids[place(corner + hex_of(bit))] = block.vertex(bit).index() as u32;
                 }
             }
         }

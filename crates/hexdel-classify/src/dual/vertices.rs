@@ -37,7 +37,7 @@ pub(super) fn fill_tile(layout: &Layout, level: u8, id: TileId, out: &mut [[f64;
 
 /// The place of a vertex in its tile's part of the array.
 fn place_of<'a>(block: &Block, bit: u32, out: &'a mut [[f64; 2]]) -> &'a mut [f64; 2] {
-    &mut out[block.vertex(bit).index() - block.first_vertex as usize]
+    &mut out[block.rank(bit)]
 }
 
 /// Says where the points lie that are inserted at some bits of a tile, relative
@@ -135,6 +135,16 @@ pub(super) fn place_occupants(
         }
     }
     of_occupant
+}
+
+/// The vertices that an input point moves, and where to.
+pub(super) fn moved_by(
+    layout: &Layout,
+    occupant: &Occupant,
+    relocation: Relocation,
+) -> impl Iterator<Item = (VertexId, DVec2)> {
+    let moved = Moved::of(layout, occupant, relocation);
+    std::iter::once((moved.vertex, occupant.point)).chain(moved.ring.into_iter().flatten())
 }
 
 /// The vertices that an input point moves.

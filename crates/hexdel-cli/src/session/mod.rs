@@ -1,14 +1,16 @@
 //! `hexdel session`: commands from a pipe, each answered with a line of JSON.
 
 mod command;
+mod kept;
 
 use crate::exit::{Failure, Outcome, Verdict, print};
 use crate::outputs::{Content, Outputs};
 use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
 use hexdel::optimize::live::Delta;
-use hexdel::{Mesher, PointId, Session, Size};
+use hexdel::{PointId, Size};
 use hexdel_io::{MarkedEdge, MeshView, write_mesh};
+use kept::Kept;
 use serde_json::{Value, json};
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
@@ -46,11 +48,25 @@ pub(crate) struct Args {
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]
     brief: bool,
+    /// How meshes are made that a session begins with and goes on with; a loaded one goes on as it was
+    #[arg(long, value_enum, default_value_t)]
+    method: SessionMethod,
+}
+
+/// The methods that sessions know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum SessionMethod {
+    /// Optimised: few triangles
+    #[default]
+    Compact,
+    /// The paper's templates: many triangles, a change in a millisecond, no sizes
+    Templates,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
-    let mut talk = Talk { session: None, brief: args.brief };
+    let mut talk =
+        Talk { session: None, brief: args.brief, templates: args.method == SessionMethod::Templates };
     let mut input = io::stdin().lock();
     let (mut line, mut failed) = (String::new(), 0);
     if let Some(file) = &args.file {
@@ -87,8 +103,9 @@ fn tell(answer: Result<Value, String>) -> Result<(), Failure> {
 type Refusal = Box<dyn std::error::Error>;
 
 struct Talk {
-    session: Option<Session>,
+    session: Option<Kept>,
     brief: bool,
+    templates: bool,
 }
 
 impl Talk {
@@ -96,23 +113,19 @@ impl Talk {
         match command {
             Command::Open(path) => {
                 let graph = hexdel_io::read_points(&path)?;
-                self.begin(if graph.segments.is_empty() {
-                    Session::new(&graph.points, &Mesher::new())?
-                } else {
-                    Session::with_segments(&graph, &Mesher::new())?
-                })
+                self.begin(Kept::open(&graph, self.templates)?)
             }
-            Command::Domain(centre, radius) => self.begin(Session::empty(centre, radius)?),
+            Command::Domain(centre, radius) => self.begin(Kept::empty(centre, radius, self.templates)?),
             Command::Load(path) => {
                 let text = std::fs::read_to_string(&path)
                     .map_err(|source| Failure::Output { file: path.clone(), source })?;
-                self.begin(Session::from_ron(&text)?)
+                self.begin(Kept::load(&text)?)
             }
             other => self.answer_in_session(other),
         }
     }
 
-    fn begin(&mut self, session: Session) -> Result<Value, Refusal> {
+    fn begin(&mut self, session: Kept) -> Result<Value, Refusal> {
         self.session = Some(session);
         self.answer_in_session(Command::Counts)
     }
@@ -125,10 +138,10 @@ impl Talk {
             Command::InsertFile(path) => session.insert_all(&hexdel_io::read_points(&path)?.points)?,
             Command::Remove(ids) => session.remove(&ids.into_iter().map(PointId).collect::<Vec<_>>())?,
             Command::Size(size) => {
-                let size = changed(session.size().cloned(), size)?;
+                let size = changed(session.compact()?.size().cloned(), size)?;
                 session.set_size(size)?
             }
-            Command::Refine(a, b, halvings) => session.refine_box(a, b, halvings)?,
+            Command::Refine(a, b, halvings) => session.compact()?.refine_box(a, b, halvings)?,
             Command::Grow => session.grow()?,
             Command::Undo => session.undo()?,
             Command::Points => return Ok(points(session)),
@@ -151,7 +164,7 @@ impl Talk {
     }
 }
 
-fn counts(session: &Session) -> Value {
+fn counts(session: &Kept) -> Value {
     let [points, vertices, triangles] = session.counts();
     let (centre, radius) = session.domain();
     json!({
@@ -160,8 +173,8 @@ fn counts(session: &Session) -> Value {
     })
 }
 
-fn points(session: &Session) -> Value {
-    let all: Vec<Value> = session.points().map(|(id, at)| json!([id.0, at.x, at.y])).collect();
+fn points(session: &Kept) -> Value {
+    let all: Vec<Value> = session.points().into_iter().map(|(id, at)| json!([id.0, at.x, at.y])).collect();
     json!({ "ok": true, "points": all })
 }
 
@@ -189,7 +202,7 @@ fn changed(size: Option<Size>, command: SizeCommand) -> Result<Option<Size>, Ref
     }))
 }
 
-fn write(session: &Session, path: &Path) -> Result<Value, Refusal> {
+fn write(session: &Kept, path: &Path) -> Result<Value, Refusal> {
     let mut outputs = Outputs::default();
     outputs.add_mesh(path)?;
     let made = session.mesh();
@@ -212,7 +225,7 @@ fn write(session: &Session, path: &Path) -> Result<Value, Refusal> {
     Ok(written(path))
 }
 
-fn save(session: &Session, path: &Path) -> Result<Value, Refusal> {
+fn save(session: &Kept, path: &Path) -> Result<Value, Refusal> {
     let text = session.to_ron()?;
     let mut outputs = Outputs::default();
     outputs.add_text(path)?;

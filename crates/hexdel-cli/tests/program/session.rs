@@ -57,6 +57,24 @@ fn a_graph_is_opened_with_its_segments() {
 }
 
 #[test]
+fn sessions_of_templates_answer_the_same_commands() {
+    let bench = Bench::new();
+    let commands = "domain 0 0 1\ninsert .1 .2 .3 .1\nremove 0\nundo\nmesh m.vtu\ncertify\nsave s.ron\n";
+    let (answers, code) = talk(&bench, "session --method templates", commands);
+    assert_eq!((answers.len(), code), (7, 0), "{answers:?}");
+    let added = answers[1]["delta"]["triangles_added"].as_array().unwrap().len();
+    assert!(0 < added && answers[5]["holds"] == true);
+    bench.run("check m.vtu").fine();
+
+    // A saved session goes on by its own method.
+    let (answers, code) = talk(&bench, "session --brief", "load s.ron\ninsert .5 .5\nsize .1\n");
+    assert_eq!((answers.len(), code), (3, 2), "{answers:?}");
+    assert_eq!(answers[1]["points_inserted"], serde_json::json!([2]));
+    assert!(answers[1]["delta"]["triangles_added"].as_u64().unwrap() > 0);
+    assert!(answers[2]["error"].as_str().unwrap().contains("know no sizes"));
+}
+
+#[test]
 fn a_bad_command_is_answered_and_changes_nothing() {
     let bench = Bench::new();
     bench.file("points.csv", "0,0\n1,0\n0,1\n");

@@ -57,6 +57,15 @@ pub enum SessionError {
         /// Which one it is.
         of: PointId,
     },
+    /// A point is so close to the rim that hexagons along it would have to be
+    /// smaller than they may.
+    #[error("({:?}, {:?}) leaves no room for templates between it and the rim at {radius:?}", at.x, at.y)]
+    AtRim {
+        /// The point, or the one closest to the rim.
+        at: DVec2,
+        /// Circumradius of the domain.
+        radius: f64,
+    },
     /// A point is closer to another than coordinates resolve.
     #[error("({:?}, {:?}) is {distance:e} from ({:?}, {:?}), closer than the {least:e} that coordinates resolve",
         at.x, at.y, to.x, to.y)]

@@ -54,6 +54,13 @@ pub struct SessionCheck {
     pub out_of_bounds: Vec<[DVec2; 3]>,
 }
 
+impl From<Certificate> for SessionCheck {
+    /// The check of a mesh without segments.
+    fn from(certificate: Certificate) -> Self {
+        Self { certificate, segments: SegmentCheck::default(), out_of_bounds: Vec::new() }
+    }
+}
+
 impl SessionCheck {
     /// Whether everything promised is so.
     pub fn holds(&self) -> bool {
@@ -221,12 +228,7 @@ impl Session {
     pub fn check(&self) -> SessionCheck {
         let snapshot = self.live.snapshot();
         let Some(frame) = &self.frame else {
-            let certificate = self.certificate();
-            return SessionCheck {
-                certificate,
-                segments: SegmentCheck::default(),
-                out_of_bounds: Vec::new(),
-            };
+            return self.certificate().into();
         };
         let points: Vec<DVec2> = frame.lines.iter().flatten().copied().collect();
         let pieces: Vec<[u32; 2]> = (0..frame.lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();

@@ -11,9 +11,10 @@ mod graph;
 mod outcome;
 mod remesh;
 mod saved;
+mod templates;
 
 use crate::mesher::{Mesher, Method};
-use crate::placement::{self, CONFLICT_REACH, MAX_COORDINATE, finest_spacing};
+use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
 use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
 use hexdel_optimize::live::{LiveError, LiveMesh, Step};
@@ -26,6 +27,7 @@ use graph::Frame;
 pub use graph::SessionCheck;
 pub use outcome::{Outcome, PointId, SessionMesh};
 use remesh::kinds;
+pub use templates::TemplateSession;
 
 /// Calls that can be undone.
 const UNDO: usize = 256;
@@ -33,10 +35,6 @@ const UNDO: usize = 256;
 /// From so many new points on, and as many as there are, the whole is meshed
 /// anew: point by point takes ten times as long.
 const BATCH: usize = 64;
-
-/// Steps of a domain that coordinates must resolve: a hundred levels of
-/// halving would not be seen.
-const FINEST: f64 = 1024.0;
 
 /// A mesh that changes.
 ///
