@@ -64,4 +64,5 @@ pub use mesher::mesh;
 pub use options::{Extent, Options, SegmentMethod};
 pub use repair::{Repair, RepairReport, repair};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
+pub use sectors::{NarrowCorner, narrow_corners};
 pub use validate::{Divided, Validated, validate, violations};
