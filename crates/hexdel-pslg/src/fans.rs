@@ -35,8 +35,10 @@ use std::f64::consts::TAU;
 
 /// Corners below this many degrees get a fan. On the outer side of a segment
 /// three triangles of 60 degrees around a vertex, each with sides as 1 to 2,
-/// bring edges as 1 to 8 together, which is enough for an angle of 1/8 radian.
-const NARROW_DEG: f64 = 7.0;
+/// bring edges as 1 to 8 together: with the corner's first edge as long as its
+/// distance from the point and the next as long as the corner is wide there, that
+/// is an angle of 1/8 radian. Below, no mesh keeps 30 degrees but in a fan.
+pub(crate) const NARROW_DEG: f64 = 7.0;
 
 /// So many corners of a point that are less than `ROOM_DEG` above the lower
 /// bound get one, too: each is one triangle wide, and all must be as long.

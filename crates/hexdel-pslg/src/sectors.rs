@@ -1,6 +1,6 @@
 //! Corners of the input that are narrower than the bound.
 
-use crate::fans::{LEAST_DEG, Scene};
+use crate::fans::{LEAST_DEG, NARROW_DEG, Scene};
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
 use crate::validate::{Piece, Validated};
@@ -21,17 +21,10 @@ pub(crate) struct Sector {
     fanned: bool,
 }
 
-/// Sectors below this many degrees are given up. On the outer side of a
-/// segment, three triangles of 60 degrees around a vertex, each with sides as
-/// 1 to 2, bring edges as 1 to 8 together: with the sector's first edge as long
-/// as its distance from the corner and the next as long as the sector is wide
-/// there, that is an angle of 1/8 radian. Below, no mesh keeps 30 degrees.
-const HOPELESS_DEG: f64 = 7.0;
-
 impl Sector {
-    /// Whether no mesh could keep bounds around it.
+    /// Whether no mesh could keep bounds around it, for want of a fan.
     pub(crate) fn is_hopeless(&self) -> bool {
-        self.angle_deg < HOPELESS_DEG && !self.fanned
+        self.angle_deg < NARROW_DEG && !self.fanned
     }
 }
 
