@@ -106,6 +106,20 @@ pub fn check_segments(mesh: &TriMesh, points: &[DVec2], segments: &[[u32; 2]]) -
     found
 }
 
+/// Whether a point is on a segment between two others, up to the rounding of
+/// coordinates that [`check_segments`] allows.
+///
+/// ```
+/// use hexdel_geom::{DVec2, segments::is_on};
+///
+/// let ends = [DVec2::ZERO, DVec2::new(3.0, 1.0)];
+/// assert!(is_on(ends, ends[1] / 3.0) && !is_on(ends, -ends[1]) && !is_on(ends, DVec2::X));
+/// ```
+pub fn is_on([a, b]: [DVec2; 2], p: DVec2) -> bool {
+    let line = Line::new(a, b);
+    line.along(p).is_some_and(|along| along >= -line.tolerance)
+}
+
 /// For each point whether it lies in a triangle of the mesh, or on its rim.
 ///
 /// # Complexity

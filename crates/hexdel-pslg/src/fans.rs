@@ -35,8 +35,10 @@ use std::f64::consts::TAU;
 
 /// Corners below this many degrees get a fan. On the outer side of a segment
 /// three triangles of 60 degrees around a vertex, each with sides as 1 to 2,
-/// bring edges as 1 to 8 together, which is enough for an angle of 1/8 radian.
-const NARROW_DEG: f64 = 7.0;
+/// bring edges as 1 to 8 together: with the corner's first edge as long as its
+/// distance from the point and the next as long as the corner is wide there, that
+/// is an angle of 1/8 radian. Below, no mesh keeps 30 degrees but in a fan.
+pub(crate) const NARROW_DEG: f64 = 7.0;
 
 /// So many corners of a point that are less than `ROOM_DEG` above the lower
 /// bound get one, too: each is one triangle wide, and all must be as long.
@@ -47,7 +49,7 @@ const ROOM_DEG: f64 = 2.0;
 
 /// Below this many degrees the strip beside the fan would take too many
 /// triangles.
-const LEAST_DEG: f64 = 0.05;
+pub(crate) const LEAST_DEG: f64 = 0.09;
 
 /// The widest angle of a fan's triangles, radians: 50 degrees.
 const WIDEST: f64 = 0.87;
@@ -57,8 +59,12 @@ const WIDEST: f64 = 0.87;
 const GROWTH: f64 = 0.8;
 
 /// The ring's radius over the distance of the nearest thing that is not part of
-/// the corner, another ring perhaps.
-const CLEAR: f64 = 0.45;
+/// the corner. The larger, the shorter the strip beside the fan; but the longest
+/// edges of the ring must not be much longer than what is left to that thing.
+const CLEAR: f64 = 0.7;
+
+/// The same for a point that has a ring, too.
+const CLEAR_OF_RING: f64 = 0.45;
 
 /// A ring around a site.
 #[derive(Clone, Copy, Debug)]
@@ -92,10 +98,13 @@ pub(crate) fn with_fans(
 ) -> Scene {
     let mut scene = Scene::plain(input, pieces);
     let spokes = Spokes::of(&scene);
-    let found: Vec<Fan> = spokes
-        .corners(near)
-        .filter_map(|at| spokes.fan(input, at, area(scene.sites[at[0].site as usize])))
-        .collect();
+    let corners: Vec<&[Spoke]> = spokes.corners(near).collect();
+    let ringed: FxHashSet<u32> = corners.iter().map(|at| at[0].site).collect();
+    let fan = |at: &&[Spoke]| {
+        let area = area(scene.sites[at[0].site as usize]);
+        spokes.fan(input, at, &ringed, area)
+    };
+    let found: Vec<Fan> = corners.iter().filter_map(fan).collect();
     if !found.is_empty() {
         let rings: Vec<Ring> = found.iter().map(|fan| spokes.ring(*fan)).collect();
         scene.cut(&rings);
@@ -167,10 +176,10 @@ impl<'a> Spokes<'a> {
     }
 
     /// The fan at a corner; `None` if there is no room.
-    fn fan(&self, input: &Validated, at: &[Spoke], area: f64) -> Option<Fan> {
+    fn fan(&self, input: &Validated, at: &[Spoke], ringed: &FxHashSet<u32>, area: f64) -> Option<Fan> {
         let site = at[0].site;
         // Twice the largest triangle's area is less than the radius squared.
-        let clear = CLEAR * self.clearance(input, site).min(area.sqrt() / CLEAR);
+        let clear = self.clear_radius(input, site, ringed).min(area.sqrt());
         let free = || at.iter().zip(beside(at)).filter(|(s, _)| s.free);
         let first = free().map(|(s, _)| s.length).fold(f64::INFINITY, f64::min);
         let mut radius = clear.min(first);
@@ -184,9 +193,9 @@ impl<'a> Spokes<'a> {
         (radius > 0.0 && radius.is_finite()).then_some(Fan { site, radius })
     }
 
-    /// The distance from a site to the nearest thing that does not belong to its
-    /// corner: other sites but for free ends of its own pieces, other pieces.
-    fn clearance(&self, input: &Validated, site: u32) -> f64 {
+    /// The largest radius that is clear of what does not belong to a site's corner:
+    /// other sites but for free ends of its own pieces, other pieces.
+    fn clear_radius(&self, input: &Validated, site: u32, ringed: &FxHashSet<u32>) -> f64 {
         let (plane, centre) = (&input.plane, self.scene.sites[site as usize]);
         let vertex = input.vertex_of_site[site as usize];
         let own: FxHashSet<u32> = self
@@ -195,7 +204,7 @@ impl<'a> Spokes<'a> {
             .filter(|s| s.free)
             .flat_map(|s| self.scene.pieces[s.piece as usize].ends)
             .collect();
-        let mut nearest = f64::INFINITY;
+        let mut radius = f64::INFINITY;
         let mut stack = Vec::new();
         plane.star(vertex, &mut stack);
         let mut seen: FxHashSet<u32> = stack.iter().copied().collect();
@@ -206,7 +215,8 @@ impl<'a> Spokes<'a> {
                     && s != site
                     && !own.contains(&s)
                 {
-                    nearest = nearest.min(centre.distance(plane.at(tri.v[i])));
+                    let clear = if ringed.contains(&s) { CLEAR_OF_RING } else { CLEAR };
+                    radius = radius.min(clear * centre.distance(plane.at(tri.v[i])));
                 }
                 if tri.edge(i).contains(&vertex) {
                     continue;
@@ -214,14 +224,14 @@ impl<'a> Spokes<'a> {
                 let [a, b] = tri.edge(i).map(|v| plane.at(v));
                 let distance = distance_sq(centre, a, b).sqrt();
                 if tri.s[i] != NONE {
-                    nearest = nearest.min(distance);
+                    radius = radius.min(CLEAR * distance);
                 }
-                if distance < nearest && tri.n[i] != NONE && seen.insert(tri.n[i]) {
+                if CLEAR_OF_RING * distance < radius && tri.n[i] != NONE && seen.insert(tri.n[i]) {
                     stack.push(tri.n[i]);
                 }
             }
         }
-        nearest
+        radius
     }
 
     fn ring(&self, fan: Fan) -> Ring {

@@ -11,8 +11,8 @@
 //! [`validate`] says whether a graph is planar, [`repair`] makes it so, [`mesh`]
 //! meshes it. Success of the optimiser is not proved: what does not keep its
 //! bounds is listed in [`PslgMesh::failed`]. Where segments meet at less than
-//! the lower bound, that one angle is exempt; below 7 degrees no mesh could keep
-//! the bounds around it, and nothing is asked for between the two segments.
+//! the lower bound, that one angle is exempt; below 7 degrees a fan of triangles
+//! around the point is, at the point.
 //!
 //! | module | what |
 //! |---|---|
@@ -65,5 +65,5 @@ pub use options::{Extent, Options, SegmentMethod};
 pub use output::vertex_markers;
 pub use repair::{Repair, RepairReport, repair};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge};
-pub use sectors::hopeless_pairs;
+pub use sectors::{NarrowCorner, hopeless_pairs, narrow_corners};
 pub use validate::{Divided, Validated, validate, violations};

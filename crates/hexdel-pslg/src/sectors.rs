@@ -1,9 +1,9 @@
 //! Corners of the input that are narrower than the bound.
 
-use crate::fans::Fan;
+use crate::fans::{Fan, LEAST_DEG, NARROW_DEG, Scene};
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
-use crate::validate::Piece;
+use crate::validate::{Piece, Validated};
 use hexdel_geom::{DVec2, quality};
 use std::f64::consts::TAU;
 
@@ -21,17 +21,10 @@ pub(crate) struct Sector {
     fanned: bool,
 }
 
-/// Sectors below this many degrees are given up. On the outer side of a
-/// segment, three triangles of 60 degrees around a vertex, each with sides as
-/// 1 to 2, bring edges as 1 to 8 together: with the sector's first edge as long
-/// as its distance from the corner and the next as long as the sector is wide
-/// there, that is an angle of 1/8 radian. Below, no mesh keeps 30 degrees.
-const HOPELESS_DEG: f64 = 7.0;
-
 impl Sector {
-    /// Whether no mesh could keep bounds around it.
+    /// Whether no mesh could keep bounds around it, for want of a fan.
     pub(crate) fn is_hopeless(&self) -> bool {
-        self.angle_deg < HOPELESS_DEG && !self.fanned
+        self.angle_deg < NARROW_DEG && !self.fanned
     }
 }
 
@@ -46,8 +39,52 @@ pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
     let piece =
         |(ends, segment): (&[DVec2; 2], u32)| Piece { ends: [site(&ends[0]), site(&ends[1])], segment };
     let pieces: Vec<Piece> = segments.iter().zip(0..).map(piece).collect();
-    let sectors = narrow_sectors(&sites, &pieces, &[], HOPELESS_DEG);
+    let sectors = narrow_sectors(&sites, &pieces, &[], NARROW_DEG);
     wedge_pairs(&sectors).into_iter().map(|pair| pair.map(|p| p as usize)).collect()
+}
+
+/// A corner of a graph between two segments that meet at less than a bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct NarrowCorner {
+    /// The point where they meet.
+    pub point: u32,
+    /// The next points on them, clockwise and counter-clockwise.
+    pub ends: [u32; 2],
+    /// The angle between them, degrees.
+    pub angle_deg: f64,
+    /// Whether it is so narrow that no lower bound is kept between the two. In
+    /// others it is only in triangles that have a corner at the point.
+    pub given_up: bool,
+}
+
+/// The corners of a graph narrower than `least_deg`, by point: where
+/// [`mesh`](crate::mesh) may go below that lower bound.
+///
+/// ```
+/// use hexdel_geom::{DVec2, Pslg};
+///
+/// let mut graph = Pslg::from_points(vec![DVec2::X, DVec2::ZERO, DVec2::new(1.0, 0.2), DVec2::Y]);
+/// graph.segments = vec![[0, 1], [1, 2], [1, 3]];
+/// let corners = hexdel_pslg::narrow_corners(&hexdel_pslg::validate(&graph)?, 30.0);
+/// assert_eq!((corners[0].point, corners[0].ends, corners.len()), (1, [0, 2], 1));
+/// # Ok::<(), hexdel_pslg::ValidateError>(())
+/// ```
+pub fn narrow_corners(input: &Validated, least_deg: f64) -> Vec<NarrowCorner> {
+    let scene = Scene::plain(input, input.pieces.clone());
+    let corner = |s: &Sector| {
+        let end = |p: u32| {
+            let [a, b] = scene.pieces[p as usize].ends;
+            scene.input_of_site[(if a == s.site { b } else { a }) as usize]
+        };
+        NarrowCorner {
+            point: scene.input_of_site[s.site as usize],
+            ends: s.pieces.map(end),
+            angle_deg: s.angle_deg,
+            given_up: s.angle_deg < LEAST_DEG,
+        }
+    };
+    narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, least_deg).iter().map(corner).collect()
 }
 
 /// The pieces on both sides of each sector that is given up.

@@ -2,17 +2,18 @@
 
 use super::finding;
 use hexdel::geom::certificate::Violation;
-use hexdel::geom::segments::covered;
+use hexdel::geom::segments::{covered, is_on};
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, MissingSegment, SegmentCheck, check_segments, quality};
 use hexdel::{Certificate, DVec2, Pslg, TriMesh, pslg};
 use serde::Serialize;
+use std::cmp::Ordering;
 
 /// What was found of a graph in a mesh.
 #[derive(Serialize)]
 pub(super) struct OfGraph {
     /// Its segments, each one or, where points lie on it, several.
     segments: SegmentCheck,
-    /// Triangles with an angle below the bound that two segments make.
+    /// Triangles below the bound in a corner where two segments are, too.
     exempt: usize,
 }
 
@@ -20,7 +21,7 @@ impl OfGraph {
     /// Holds a mesh against a graph. Exempt triangles, and points in holes or
     /// outside, are taken out of the certificate.
     pub(super) fn new(mesh: &TriMesh, graph: &Pslg, certificate: &mut Certificate) -> Self {
-        let domain = Wanted::of(graph);
+        let domain = Wanted::of(graph, certificate.bounds.min_deg());
         let mut segments = check_segments(mesh, &graph.points, &domain.pieces);
         let midpoints: Vec<DVec2> = segments.missing.iter().map(|m| m.ends[0].midpoint(m.ends[1])).collect();
         let mut covers = covered(mesh, &midpoints).into_iter();
@@ -41,12 +42,21 @@ impl OfGraph {
         let is_outside = |input| absent.binary_search(&input).is_ok_and(|at| !covers[at]);
         let mut exempt = 0;
         let mut outside = 0;
+        let bounds = certificate.bounds;
         certificate.violations.retain(|violation| match *violation {
             Violation::AngleBelow { triangle, corner, corners, .. } => {
                 let v = mesh.triangles[triangle.index()];
                 let sides = [[v[corner], v[(corner + 1) % 3]], [v[corner], v[(corner + 2) % 3]]];
-                let excused = sides.into_iter().all(|side| segments.has_edge(side))
-                    && others_keep(corners, corner, certificate.bounds);
+                let is_corner = || {
+                    sides.into_iter().all(|side| segments.has_edge(side))
+                        || domain.narrow.binary_search_by(|p| order(p, &corners[corner])).is_ok()
+                };
+                let excused = others_keep(corners, corner, bounds) && is_corner()
+                    || keeps_upper(corners, bounds)
+                        && domain
+                            .wedges
+                            .iter()
+                            .any(|w| corners.iter().all(|&p| w.iter().any(|&s| is_on(s, p))));
                 exempt += usize::from(excused);
                 !excused
             }
@@ -114,6 +124,14 @@ fn others_keep(corners: [DVec2; 3], corner: usize, bounds: hexdel::AngleBounds) 
     (0..3).all(|i| i == corner || (least..=most).contains(&angles[i]))
 }
 
+fn keeps_upper(corners: [DVec2; 3], bounds: hexdel::AngleBounds) -> bool {
+    quality::angles_deg(corners).into_iter().all(|a| a <= bounds.max_deg() + ANGLE_TOLERANCE_DEG)
+}
+
+fn order(p: &DVec2, q: &DVec2) -> Ordering {
+    p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))
+}
+
 /// What a mesh must have of a graph.
 struct Wanted {
     /// The segments, divided where points lie on them.
@@ -123,10 +141,15 @@ struct Wanted {
     carved_pieces: Vec<bool>,
     /// Whether a point does.
     carved_points: Vec<bool>,
+    /// The points where segments meet at less than the bound, in order: triangles
+    /// there may be below it in that corner.
+    narrow: Vec<DVec2>,
+    /// Pairs of segments between which nothing is asked for.
+    wedges: Vec<[[DVec2; 2]; 2]>,
 }
 
 impl Wanted {
-    fn of(graph: &Pslg) -> Self {
+    fn of(graph: &Pslg, least_deg: f64) -> Self {
         let Ok(valid) = pslg::validate(graph) else {
             // The mesh may have been made of what repair made of the graph; its
             // segments are looked for as they are.
@@ -135,10 +158,24 @@ impl Wanted {
                 segment_of_piece: (0..graph.segments.len()).collect(),
                 carved_pieces: vec![false; graph.segments.len()],
                 carved_points: vec![false; graph.points.len()],
+                narrow: Vec::new(),
+                wedges: Vec::new(),
             };
         };
         let carved = valid.carved(true);
         let (segment_of_piece, pieces) = valid.pieces().unzip();
-        Self { pieces, segment_of_piece, carved_pieces: carved.pieces, carved_points: carved.points }
+        let corners = pslg::narrow_corners(&valid, least_deg);
+        let at = |p: u32| graph.points[p as usize];
+        let mut narrow: Vec<DVec2> = corners.iter().map(|c| at(c.point)).collect();
+        narrow.sort_by(order);
+        let given_up = corners.iter().filter(|c| c.given_up);
+        Self {
+            pieces,
+            segment_of_piece,
+            carved_pieces: carved.pieces,
+            carved_points: carved.points,
+            narrow,
+            wedges: given_up.map(|c| c.ends.map(|end| [at(c.point), at(end)])).collect(),
+        }
     }
 }

@@ -75,6 +75,18 @@ fn methods_and_ways_are_at_choice() {
 }
 
 #[test]
+fn a_fan_at_a_narrow_corner_passes_the_check() {
+    let bench = Bench::new();
+    let wedge = "3 2 0 0\n1 1 0\n2 0 0\n3 0.9 0.01\n2 0\n1 1 2\n2 2 3\n0\n";
+    bench.file("wedge.poly", wedge);
+    bench.run("mesh wedge.poly -q -o m.ele --report r.json --domain hexagon").fine();
+    assert!(bench.json("r.json")["exempt"].as_array().unwrap().len() > 1);
+    bench.run("check m.ele --input wedge.poly").fine();
+    bench.file("apart.poly", &wedge.replace("0.9 0.01", "0.9 0.9"));
+    assert_eq!(bench.run("check m.ele --input apart.poly").code, 1);
+}
+
+#[test]
 fn a_budget_that_is_spent_leaves_a_mesh_with_all_segments() {
     let bench = Bench::new();
     let input = graph("airfoil");
