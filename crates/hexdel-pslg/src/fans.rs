@@ -279,7 +279,8 @@ fn divided(gap: f64, size: impl Fn(f64) -> f64) -> Vec<f64> {
         at = next;
         counts.push((count, at));
     }
-    let parts = count.ceil().max(1.0);
+    // What rounding adds to a whole count divides nothing.
+    let parts = (count - 1e-3).ceil().max(1.0);
     let angle_of = |wanted: f64| {
         let i = counts.partition_point(|c| c.0 < wanted).clamp(1, counts.len() - 1);
         let [(c0, a0), (c1, a1)] = [counts[i - 1], counts[i]];
