@@ -152,6 +152,33 @@ fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
     done
 }
 
+/// Takes `v` out by the refill of least cost, whatever becomes of the angles; false
+/// where the topology forbids all.
+pub(crate) fn drop_vertex(work: &mut Work, v: u32) -> bool {
+    if let Some(hole) = SegmentHole::of(&work.mesh, v) {
+        let Some(refill) = hole.refill(&work.mesh, work.rules, work.refills) else { return false };
+        hole.fill(&mut work.mesh, &refill);
+        work.mesh.commit();
+        return true;
+    }
+    let s = &mut work.scratch;
+    let closed = work.mesh.ring(v, &mut s.tris, &mut s.ring);
+    let slides = matches!(work.mesh.motion[v as usize], Motion::Along(_));
+    if !(3..=MAX_CORNERS).contains(&s.ring.len()) || closed == slides {
+        return false;
+    }
+    work.refills.choose(&work.mesh, work.rules, (&s.tris, &s.ring), closed, 1, &mut s.chosen);
+    let refilled = s
+        .chosen
+        .first()
+        .is_some_and(|&(_, index)| work.refills.triangles(&work.mesh, &s.ring, closed, index, &mut s.new));
+    if refilled {
+        work.mesh.replace(&s.tris, &s.new, &mut Vec::new());
+        work.mesh.commit();
+    }
+    refilled
+}
+
 /// Moves ever more rings around `verts` until everything changed holds.
 pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
     work.load(verts);

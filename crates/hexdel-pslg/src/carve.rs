@@ -65,7 +65,7 @@ pub(crate) fn reached(net: &Net, holes: &[DVec2], outside: bool) -> Vec<bool> {
     if outside {
         stack.extend(net.alive().filter(|&t| {
             let tri = net.tri(t);
-            (0..3).any(|i| tri.n[i] == NONE && tri.s[i] == NONE)
+            (0..3).any(|i| tri.n[i] == NONE && !net.is_border(t, i))
         }));
     }
     let mut hint = NONE;
@@ -87,7 +87,7 @@ pub(crate) fn flood(net: &Net, mut stack: Vec<u32>, mut enter: impl FnMut(u32) -
     while let Some(t) = stack.pop() {
         let tri = net.tri(t);
         for i in 0..3 {
-            if tri.s[i] == NONE && tri.n[i] != NONE && enter(tri.n[i]) {
+            if tri.n[i] != NONE && !net.is_border(t, i) && enter(tri.n[i]) {
                 stack.push(tri.n[i]);
             }
         }

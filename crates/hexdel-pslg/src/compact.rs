@@ -125,6 +125,7 @@ impl Taken {
     fn rebuild(&self, before: &Net, made: &Optimized, pieces: &[Piece]) -> Net {
         let mut net = Net::of(&made.mesh);
         net.lines.clone_from(&before.lines);
+        net.soft = before.soft;
         for (v, kind) in made.kinds.iter().enumerate() {
             let at = made.mesh.vertices[v];
             let kind = match *kind {

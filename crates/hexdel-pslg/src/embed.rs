@@ -7,6 +7,7 @@
 //! angles are for the optimiser to mend.
 
 use crate::error::PslgError;
+use crate::fans::{self, Scene};
 use crate::field::Field;
 use crate::geometry::distance_sq;
 use crate::net::trace::Trace;
@@ -22,19 +23,19 @@ use hexdel_geom::monitor::{Monitor, check};
 const CLEARANCE: f64 = 0.55;
 
 /// Embeds sites and pieces into a mesh that covers them with room to spare.
-pub(crate) fn embed(
-    mut net: Net,
-    sites: &[DVec2],
-    pieces: &[Piece],
-    monitor: &dyn Monitor,
-) -> Result<Net, PslgError> {
+pub(crate) fn embed(mut net: Net, scene: &Scene, monitor: &dyn Monitor) -> Result<Net, PslgError> {
     let field = Field::of(&net);
+    let (sites, pieces) = (&scene.sites, &scene.pieces);
+    net.soft = Some(scene.soft);
     net.lines = pieces.iter().map(|p| p.ends.map(|s| sites[s as usize])).collect();
     let mut embedder = Embedder { net, field, sizes: Vec::new(), chains: Vec::new(), links: Vec::new() };
     let vertex_of_site = embedder.insert_sites(sites);
     check(monitor)?;
-    embedder.divide(sites, pieces, &vertex_of_site);
+    embedder.divide(scene, &vertex_of_site);
     check(monitor)?;
+    for fan in &scene.fans {
+        fans::empty(&mut embedder.net, vertex_of_site[fan.site as usize], fan.radius);
+    }
     embedder.clear();
     check(monitor)?;
     embedder.connect(pieces)?;
@@ -77,11 +78,15 @@ impl Embedder {
     }
 
     /// Inserts vertices along all pieces.
-    fn divide(&mut self, sites: &[DVec2], pieces: &[Piece], vertex_of_site: &[u32]) {
+    fn divide(&mut self, scene: &Scene, vertex_of_site: &[u32]) {
         let mut place = NONE;
-        for (i, piece) in pieces.iter().enumerate() {
+        for (i, piece) in scene.pieces.iter().enumerate() {
             let [a, b] = piece.ends.map(|s| vertex_of_site[s as usize]);
-            let [from, to] = piece.ends.map(|s| sites[s as usize]);
+            if scene.whole[i] {
+                self.chains.push(vec![a, b]);
+                continue;
+            }
+            let [from, to] = piece.ends.map(|s| scene.sites[s as usize]);
             let profile = self.field.profile(from, to, place);
             place = profile.hint;
             let radii = [a, b].map(|v| self.sizes[v as usize]);

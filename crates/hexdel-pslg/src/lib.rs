@@ -23,6 +23,7 @@
 //! | `hull` | the convex hull as a boundary |
 //! | `net` | a triangulation that can be changed, and changes taken back |
 //! | `field` | the size of a mesh at every place |
+//! | `fans` | triangles around the narrowest corners |
 //! | `embed` | points and segments go into the mesh |
 //! | `carve` | holes and the outside go |
 //! | `sectors` | corners that are narrower than the bound |
@@ -40,6 +41,7 @@ mod carve;
 mod compact;
 mod embed;
 mod error;
+mod fans;
 mod field;
 mod fit;
 mod geometry;

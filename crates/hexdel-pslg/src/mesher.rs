@@ -5,6 +5,7 @@ use crate::carve::carve;
 use crate::compact::{Kept, compact};
 use crate::embed::embed;
 use crate::error::PslgError;
+use crate::fans::{Scene, with_fans};
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::optimise;
 use crate::hull::with_hull;
@@ -15,7 +16,7 @@ use crate::paper;
 use crate::result::PslgMesh;
 use crate::sectors::{Sector, narrow_sectors, sector_near, wedges};
 use crate::sizing::{Demand, Features, lattice_for, refine};
-use crate::validate::{Piece, Validated};
+use crate::validate::Validated;
 use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
@@ -134,7 +135,7 @@ struct Mesher<'a> {
     lattice: Lattice,
     /// Radius of the disc that the domain must hold.
     reach: f64,
-    pieces: Vec<Piece>,
+    scene: Scene,
     sectors: Vec<Sector>,
     wedges: Wedges,
     areas: Option<AreaLimits<'a>>,
@@ -147,14 +148,17 @@ impl<'a> Mesher<'a> {
             smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
         let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
         let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
-        let sectors = narrow_sectors(input.points.sites(), &pieces, options.near.min_deg());
-        let wedges = wedges(&sectors, &pieces);
+        let area = |p: DVec2| areas.as_ref().map_or(f64::INFINITY, |areas| areas.at(p));
+        let scene = with_fans(input, pieces, options.near, &area);
+        let sectors = narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
+        let wedges = wedges(&sectors, &scene.pieces);
+        let reach = scene.sites.iter().map(|p| p.distance(circle.center)).fold(circle.radius, f64::max);
         Self {
             input,
             options,
             lattice: lattice_for(circle),
-            reach: circle.radius,
-            pieces,
+            reach,
+            scene,
             sectors,
             wedges,
             areas,
@@ -166,8 +170,8 @@ impl<'a> Mesher<'a> {
         Judge { near: self.options.near, far: self.options.far, wedges: &self.wedges }
     }
 
-    fn sites(&self) -> &'a [DVec2] {
-        self.input.points.sites()
+    fn sites(&self) -> &[DVec2] {
+        &self.scene.sites
     }
 
     /// Whether a triangle lies where no mesh could keep the bounds.
@@ -201,7 +205,7 @@ impl<'a> Mesher<'a> {
 
     fn kept(&self, strict: bool) -> Kept<'_> {
         Kept {
-            pieces: &self.pieces,
+            pieces: &self.scene.pieces,
             sectors: &self.sectors,
             sites: self.sites(),
             judge: self.judge(),
@@ -216,7 +220,7 @@ impl<'a> Mesher<'a> {
     fn finished(&self, net: Net, retries: u32, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
         let parts = Parts {
             input: self.input,
-            pieces: &self.pieces,
+            scene: &self.scene,
             sectors: &self.sectors,
             judge: self.judge(),
             method: self.options.method,
@@ -238,8 +242,8 @@ impl<'a> Mesher<'a> {
         };
         let features = Features {
             sites: self.sites(),
-            pieces: &self.pieces,
-            input_of_site: self.input.points.input_of_site(),
+            pieces: &self.scene.pieces,
+            input_of_site: &self.scene.input_of_site,
             demands,
             limit: self.areas.as_ref().map(|_| &spacing as &dyn Fn(DVec2) -> f64),
             max_triangles: self.options.max_triangles,
@@ -255,7 +259,7 @@ impl<'a> Mesher<'a> {
         if dual.mesh.triangles.len() > self.options.max_triangles {
             return Err(too_many());
         }
-        let mut net = embed(Net::of(&dual.mesh), self.sites(), &self.pieces, monitor)?;
+        let mut net = embed(Net::of(&dual.mesh), &self.scene, monitor)?;
         carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
         if net.alive().next().is_none() {
             return Err(PslgError::NothingEnclosed);

@@ -2,6 +2,7 @@
 
 use crate::carve::flood;
 use crate::error::PslgError;
+use crate::fans::Scene;
 use crate::fit::count_rings;
 use crate::fit::edits::parameter;
 use crate::fit::judge::{FAR_RING, Judge, is_sector};
@@ -9,18 +10,19 @@ use crate::net::{Kind, NONE, Net};
 use crate::options::{Deadline, SegmentMethod};
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
 use crate::sectors::{Sector, sector_near};
-use crate::validate::{Piece, Validated};
+use crate::validate::Validated;
 use hexdel_geom::delaunay::restore_constrained_delaunay;
 use hexdel_geom::monitor::{Monitor, check};
 use hexdel_geom::{
-    AngleBounds, CertifyOptions, DVec2, Pslg, TriMesh, TriangleId, VertexId, certify, quality, settle_rounding,
+    AngleBounds, CertifyOptions, DVec2, Pslg, TriMesh, TriangleId, VertexId, certify, quality,
+    settle_rounding,
 };
 use rustc_hash::FxHashSet;
 
 /// What the mesh was made of.
 pub(crate) struct Parts<'a> {
     pub(crate) input: &'a Validated,
-    pub(crate) pieces: &'a [Piece],
+    pub(crate) scene: &'a Scene,
     pub(crate) sectors: &'a [Sector],
     pub(crate) judge: Judge<'a>,
     pub(crate) method: SegmentMethod,
@@ -182,7 +184,7 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
         for i in 0..3 {
             let (n, piece) = (tri.n[i], tri.s[i]);
             let boundary = n == NONE;
-            if !boundary && (piece == NONE || n < t) {
+            if !boundary && (!net.is_border(t, i) || n < t) {
                 continue;
             }
             let [a, b] = tri.edge(i);
@@ -200,7 +202,7 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
     found
         .into_iter()
         .map(|(piece, _, ends, boundary)| {
-            let segment = parts.pieces.get(piece as usize).map(|p| p.segment).filter(|&s| s != NONE);
+            let segment = parts.scene.pieces.get(piece as usize).map(|p| p.segment).filter(|&s| s != NONE);
             let marker = segment.and_then(|s| markers.get(s as usize)).copied().unwrap_or(0);
             let marker = if marker == 0 { i32::from(boundary) } else { marker };
             SegmentEdge { ends: ends.map(|v| numbers.vertex(v)), segment, marker, boundary }
@@ -262,14 +264,14 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         let triangle = TriangleId::new(numbers.triangle[t as usize] as usize);
         Exception { triangle, at, angles_deg: [min, max], reason }
     };
-    let point = |site: u32| parts.input.points.input_of_site()[site as usize];
+    let point = |site: u32| parts.scene.input_of_site[site as usize];
     let failed = net.alive().filter(|&t| parts.judge.is_out(net, t));
     let failed = failed.map(|t| {
         let is_near = || net.tri(t).v.iter().any(|&v| net.vertex(v).ring < FAR_RING);
         if parts.method == SegmentMethod::Paper && is_near() {
             return entry(t, Reason::Template);
         }
-        let near = sector_near(net.corners(t), parts.sectors, parts.input.points.sites());
+        let near = sector_near(net.corners(t), parts.sectors, &parts.scene.sites);
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
             point: point(sector.site),
             angle_deg: sector.angle_deg,
@@ -279,7 +281,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     });
     let failed: Vec<Exception> = failed.collect();
     let narrow = |t: u32| {
-        let (sector, _) = sector_near(net.corners(t), parts.sectors, parts.input.points.sites())?;
+        let (sector, _) = sector_near(net.corners(t), parts.sectors, &parts.scene.sites)?;
         Some(Reason::Sector { point: point(sector.site), angle_deg: sector.angle_deg })
     };
     let sector = |t: u32| {

@@ -1,5 +1,6 @@
 //! Corners of the input that are narrower than the bound.
 
+use crate::fans::Fan;
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
 use crate::validate::Piece;
@@ -16,6 +17,8 @@ pub(crate) struct Sector {
     pub(crate) angle_deg: f64,
     /// The bisector, as long as the longer side.
     bisector: DVec2,
+    /// Whether there is a fan around the site.
+    fanned: bool,
 }
 
 /// Sectors below this many degrees are given up. On the outer side of a
@@ -28,7 +31,7 @@ const HOPELESS_DEG: f64 = 7.0;
 impl Sector {
     /// Whether no mesh could keep bounds around it.
     pub(crate) fn is_hopeless(&self) -> bool {
-        self.angle_deg < HOPELESS_DEG
+        self.angle_deg < HOPELESS_DEG && !self.fanned
     }
 }
 
@@ -43,7 +46,7 @@ pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
     let piece =
         |(ends, segment): (&[DVec2; 2], u32)| Piece { ends: [site(&ends[0]), site(&ends[1])], segment };
     let pieces: Vec<Piece> = segments.iter().zip(0..).map(piece).collect();
-    let sectors = narrow_sectors(&sites, &pieces, HOPELESS_DEG);
+    let sectors = narrow_sectors(&sites, &pieces, &[], HOPELESS_DEG);
     wedge_pairs(&sectors).into_iter().map(|pair| pair.map(|p| p as usize)).collect()
 }
 
@@ -58,17 +61,17 @@ pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
 }
 
 /// All sectors narrower than `least_deg`.
-pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], least_deg: f64) -> Vec<Sector> {
+pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Vec<Sector> {
     let mut rays: Vec<(u32, f64, u32)> = pieces
         .iter()
         .zip(0..)
         .flat_map(|(piece, i)| {
             let [a, b] = piece.ends;
-            let direction = |from: u32, to: u32| {
+            let ray = |from: u32, to: u32| {
                 let u = sites[to as usize] - sites[from as usize];
-                (from, libm_atan2(u), i)
+                (from, direction(u), i)
             };
-            [direction(a, b), direction(b, a)]
+            [ray(a, b), ray(b, a)]
         })
         .collect();
     rays.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -85,6 +88,7 @@ pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], least_deg: f64) 
                     site: ray.0,
                     pieces: [ray.2, next.2],
                     angle_deg,
+                    fanned: fans.iter().any(|fan| fan.site == ray.0),
                     bisector: bisector(sites, pieces, ray.0, [ray.2, next.2]),
                 });
             }
@@ -103,7 +107,7 @@ fn bisector(sites: &[DVec2], pieces: &[Piece], site: u32, sides: [u32; 2]) -> DV
 }
 
 /// The direction of a vector, by the portable arc tangent of the angles.
-fn libm_atan2(u: DVec2) -> f64 {
+pub(crate) fn direction(u: DVec2) -> f64 {
     quality::angles_rad([DVec2::ZERO, DVec2::X * u.length(), u])[0]
 }
 

@@ -24,6 +24,7 @@ use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Grid, Hex, TileId, Window};
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// Merges what no finer level needs in the given tiles of a closed level.
 pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &RuleSet) {
@@ -151,17 +152,9 @@ impl Patch {
 
     /// Whether no rule asks for anything where it can see the group.
     fn rules_hold(&self, group: Window, rules: &RuleSet) -> bool {
-        let mut reached = [false; 9];
-        for at in group.iter() {
-            for (dq, dr) in [(-4, -4), (4, -4), (-4, 4), (4, 4)] {
-                let (column, row) = ((at.q + dq) >> 3, (at.r + dr) >> 3);
-                // A group reaches one hexagon beyond the tile, a rule four:
-                // never more than the neighbouring tile.
-                reached[(3 * (row + 1) + column + 1) as usize] = true;
-            }
-        }
         // The tile in the middle is the likeliest to object.
-        [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(|&i| reached[i]).all(|i| {
+        let reached = |i: &usize| !(group & seen_from()[*i]).is_empty();
+        [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(reached).all(|i| {
             let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
             let view = View {
                 subdivided: Self::window(&self.subdivided, column, row),
@@ -177,6 +170,21 @@ impl Patch {
         let tiles = |r: i64| [-1, 0, 1].map(|c| plane[index(column + c, row + r)]);
         Window::gather(&[tiles(-1), tiles(0), tiles(1)])
     }
+}
+
+/// For each of the nine inner tiles the hexagons that a rule may see from it. A
+/// group reaches one hexagon beyond the tile in the middle, a rule four: never
+/// more than a neighbouring tile.
+fn seen_from() -> &'static [Window; 9] {
+    static SEEN: OnceLock<[Window; 9]> = OnceLock::new();
+    SEEN.get_or_init(|| {
+        std::array::from_fn(|i| {
+            let first = Hex::new(8 * (i as i64 % 3 - 1), 8 * (i as i64 / 3 - 1));
+            let tile = || (0..64).map(|bit| first + hex_of(bit));
+            let near = |at: &Hex| tile().any(|h| h.distance(*at) <= Window::MARGIN as u64);
+            Window::with_margin(1).iter().filter(near).collect()
+        })
+    })
 }
 
 /// Where a tile `column` and `row` tiles from the middle is kept.

@@ -96,7 +96,7 @@ impl Placement {
     /// A single site has no scale of its own: a patch of radius 1 or, far away,
     /// as small as coordinates resolve there.
     fn of_one(site: DVec2, radius: Option<f64>) -> Result<Self, Error> {
-        let least = finest_spacing(site);
+        let least = finest_spacing(site).max(1.0 / MAX_COORDINATE);
         let (spacing, steps) = match radius {
             Some(radius) => (radius / f64::from(STEPS[0]), Some(STEPS[0])),
             None => (least.max(1.0), None),

@@ -8,16 +8,18 @@ use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
 use hexdel::optimize::live::Delta;
 use hexdel::{Mesher, PointId, Session, Size};
-use hexdel_io::{MeshView, write_mesh};
+use hexdel_io::{MarkedEdge, MeshView, write_mesh};
 use serde_json::{Value, json};
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
 
 /// Change a mesh by commands from standard input, answered with lines of JSON
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    override_usage = "hexdel session [OPTIONS] [FILE TO OPEN]",
+    after_help = "\
     Commands:\n  \
-    open FILE                    begin with the points of a file\n  \
+    open FILE                    begin with the points of a file, or its graph\n  \
     domain X Y RADIUS            begin with an empty hexagon\n  \
     load FILE                    go on with a saved session\n  \
     insert X Y [X Y ..]          put points in, all or none\n  \
@@ -35,8 +37,12 @@ use std::path::{Path, PathBuf};
     An answer has \"ok\", and what changed by serial numbers or the \"error\"; after an error\n\
     the session is as it was. Exits with 2 if there was one.\n\n\
     Example:\n  \
-    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session")]
+    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session"
+)]
 pub(crate) struct Args {
+    /// The file to begin with, as by `open`
+    #[arg(hide = true)]
+    file: Option<PathBuf>,
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]
     brief: bool,
@@ -47,6 +53,11 @@ pub(crate) fn run(args: &Args) -> Outcome {
     let mut talk = Talk { session: None, brief: args.brief };
     let mut input = io::stdin().lock();
     let (mut line, mut failed) = (String::new(), 0);
+    if let Some(file) = &args.file {
+        let answer = talk.answer(Command::Open(file.clone())).map_err(|e| e.to_string());
+        failed += usize::from(answer.is_err());
+        tell(answer)?;
+    }
     loop {
         line.clear();
         let answer = match input.read_line(&mut line) {
@@ -62,10 +73,14 @@ pub(crate) fn run(args: &Args) -> Outcome {
             Err(error) => return Err(Failure::Stdin(error)),
         };
         failed += usize::from(answer.is_err());
-        let answer = answer.unwrap_or_else(|message| json!({ "ok": false, "error": message }));
-        print(&format!("{answer}\n"))?;
+        tell(answer)?;
     }
     if failed > 0 { Err(Failure::Commands { failed }) } else { Ok(Verdict::Holds) }
+}
+
+fn tell(answer: Result<Value, String>) -> Result<(), Failure> {
+    let answer = answer.unwrap_or_else(|message| json!({ "ok": false, "error": message }));
+    print(&format!("{answer}\n"))
 }
 
 /// Why a command was not done.
@@ -80,8 +95,12 @@ impl Talk {
     fn answer(&mut self, command: Command) -> Result<Value, Refusal> {
         match command {
             Command::Open(path) => {
-                let points = hexdel_io::read_points(&path)?.points;
-                self.begin(Session::new(&points, &Mesher::new())?)
+                let graph = hexdel_io::read_points(&path)?;
+                self.begin(if graph.segments.is_empty() {
+                    Session::new(&graph.points, &Mesher::new())?
+                } else {
+                    Session::with_segments(&graph, &Mesher::new())?
+                })
             }
             Command::Domain(centre, radius) => self.begin(Session::empty(centre, radius)?),
             Command::Load(path) => {
@@ -114,8 +133,11 @@ impl Talk {
             Command::Undo => session.undo()?,
             Command::Points => return Ok(points(session)),
             Command::Certify => {
-                let certificate = session.certificate();
-                return Ok(json!({ "ok": true, "holds": certificate.holds(), "certificate": certificate }));
+                let check = session.check();
+                return Ok(json!({
+                    "ok": true, "holds": check.holds(), "certificate": check.certificate,
+                    "segments_missing": check.segments.missing.len(),
+                }));
             }
             Command::Mesh(path) => return write(session, &path),
             Command::Save(path) => return save(session, &path),
@@ -176,7 +198,16 @@ fn write(session: &Session, path: &Path) -> Result<Value, Refusal> {
         inputs[v.index()] = u32::try_from(id.0).ok();
     }
     let certificate = session.certificate();
-    let view = MeshView::new(&made.mesh).with_input_indices(&inputs).with_certificate(&certificate);
+    let mut view = MeshView::new(&made.mesh).with_input_indices(&inputs).with_certificate(&certificate);
+    let edges: Vec<MarkedEdge> =
+        made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
+    let regions = session.region_attributes(&made);
+    if !edges.is_empty() {
+        view = view.with_marked_edges(&edges).with_vertex_markers(&made.vertex_markers);
+    }
+    if regions.iter().any(|a| *a != 0.0) {
+        view = view.with_regions(&regions);
+    }
     outputs.write(|_, path| Ok(write_mesh(path, &view)?))?;
     Ok(written(path))
 }

@@ -51,18 +51,18 @@ impl Cut {
         vertices.dedup();
         let local = |v: u32| vertices.binary_search(&v).expect("every corner was collected") as u32;
         let tris: Vec<[u32; 3]> = triangles.iter().map(|&t| store.triangle(t).v.map(local)).collect();
-        let mut outside: Vec<u16> = vec![0; vertices.len()];
+        let mut outside: Vec<u32> = vec![0; vertices.len()];
         for (i, &v) in vertices.iter().enumerate() {
             store.around(v, |_| outside[i] += 1);
         }
         for &v in tris.iter().flatten() {
             outside[v as usize] -= 1;
         }
-        let motion = |(&v, &outside): (&u32, &u16)| {
+        let motion = |(&v, &outside): (&u32, &u32)| {
             if outside > 0 { Motion::Frozen } else { store.vertex(v).motion }
         };
         let around = if store.constrained {
-            let is_near = |(&v, &outside): (&u32, &u16)| outside > 0 && store.is_near(v);
+            let is_near = |(&v, &outside): (&u32, &u32)| outside > 0 && store.is_near(v);
             Around {
                 source: vertices.iter().map(|&v| store.vertex(v).source).collect(),
                 near: vertices.iter().zip(&outside).map(is_near).collect(),
@@ -87,6 +87,11 @@ impl Cut {
     /// The part's name of a triangle slot.
     pub(crate) fn local_triangle(&self, t: u32) -> Option<u32> {
         self.triangles.binary_search(&t).ok().map(|i| i as u32)
+    }
+
+    /// The part's name of a vertex slot that is in it.
+    pub(crate) fn local_vertex(&self, v: u32) -> u32 {
+        self.vertices.binary_search(&v).expect("a vertex of the part") as u32
     }
 
     /// Whether another state of the part is a disk if the part was: triangles

@@ -11,6 +11,7 @@
 //! | `locate` | the triangle that holds a point |
 //! | `cut` | parts cut out and put back |
 //! | `insert` | a new fixed vertex |
+//! | `coarsen` | many vertices taken out at once |
 //! | `release` | a fixed vertex that becomes free |
 //! | `refine` | triangles cut in four |
 //! | `size` | edges made as short as wanted |
@@ -21,6 +22,7 @@
 //! Points, undo and files are left to the session in the crate `hexdel`.
 
 mod answer;
+mod coarsen;
 mod cut;
 mod insert;
 mod locate;

@@ -50,9 +50,9 @@ fn cut_in_four(cut: &Cut, inner: &[bool]) -> Option<Mesh> {
         built.triangle(tri.v, &mut tris);
         bound.extend(tris[first..].iter().map(|&v| built.bound_of(tri, v)));
     }
-    let mut outside: Vec<u16> = vec![0; built.pos.len()];
+    let mut outside: Vec<u32> = vec![0; built.pos.len()];
     for v in 0..old.pos.len() as u32 {
-        outside[v as usize] = old.degree(v) as u16;
+        outside[v as usize] = old.degree(v) as u32;
     }
     for &v in old.tri.iter().flat_map(|t| &t.v) {
         outside[v as usize] -= 1;

@@ -1,6 +1,9 @@
 //! A fixed vertex that becomes free, and what goes with it.
 
+use hexdel_geom::DVec2;
+
 use crate::constraints::NOWHERE;
+use crate::live::coarsen::{STUCK, Try, USUAL, coarsen};
 use crate::live::cut::{Cut, rings};
 use crate::live::insert::repair_rounds;
 use crate::live::store::Vertex;
@@ -11,6 +14,12 @@ use crate::mesh::{Motion, NONE};
 /// Rounds of removals after one change, at most: each coarsens by half what is
 /// too fine.
 const MOST_THINNINGS: usize = 16;
+
+/// Rounds of coarsening after one change, at most.
+const MOST_COARSENINGS: usize = 8;
+
+/// A removal that takes no more triangles away is stuck: a vertex has two.
+const FEW: usize = 2;
 
 /// Sine of the turn up to which a rim goes straight on, as for a whole outline.
 const STRAIGHT: f64 = 1e-3;
@@ -48,11 +57,14 @@ impl LiveMesh {
         };
         let (mark, serials) = (self.store.mark(), self.store.serials);
         self.store.write_vertex(slot, Vertex { motion, sector, source, failed: 0, ..old });
+        let count = self.store.counts()[1];
         let freed = (self.store.mark(), self.store.serials);
         self.forget_failures(slot);
         thin::thin(&mut self.store, &self.tools, slot, old.at);
         if self.mend(mark) && self.shorten(mark, false).is_ok() {
             self.thin_changed(mark, MOST_THINNINGS);
+            let gone = count.saturating_sub(self.store.counts()[1]);
+            self.coarsen_around(old.at, mark, if gone > FEW { USUAL } else { STUCK });
             if settle_changes(&mut self.store, mark, self.bounds) {
                 return Ok(());
             }
@@ -78,6 +90,17 @@ impl LiveMesh {
             }
         }
         false
+    }
+
+    /// Takes many vertices out at once around `p`, for as long as that succeeds.
+    fn coarsen_around(&mut self, p: DVec2, mark: usize, how: Try) {
+        for _ in 0..MOST_COARSENINGS {
+            let Ok(spot) = self.locate(p) else { return };
+            if !coarsen(&mut self.store, &self.tools, (spot.triangle, p), how) {
+                return;
+            }
+            self.thin_changed(mark, MOST_THINNINGS);
+        }
     }
 
     fn repair_around(&mut self, t: u32) -> bool {

@@ -108,7 +108,7 @@ pub(crate) struct Mesh {
     anchor: Vec<u32>,
     /// Number of live triangles at each vertex, plus those of the vertex that
     /// lie outside of this mesh when it is a part of a larger one.
-    degree: Vec<u16>,
+    degree: Vec<u32>,
     /// Whether there are segments, and `source` and `near` are in use.
     constrained: bool,
     /// The segment that each vertex lies on, `POINT` or `NOWHERE`.
@@ -125,7 +125,7 @@ impl Mesh {
     /// Number of triangles at `v`.
     #[inline]
     pub(crate) fn degree(&self, v: u32) -> usize {
-        usize::from(self.degree[v as usize])
+        self.degree[v as usize] as usize
     }
 
     pub(crate) fn alive(&self, v: u32) -> bool {

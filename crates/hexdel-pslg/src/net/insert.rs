@@ -26,7 +26,7 @@ impl Net {
     pub(crate) fn part_at(&self, p: DVec2, hint: u32) -> Option<u32> {
         match self.locate(p, hint) {
             Place::Inside(t) => Some(t),
-            Place::Edge(t, i) => (self.tri(t).s[i] == NONE).then_some(t),
+            Place::Edge(t, i) => (!self.is_border(t, i)).then_some(t),
             Place::Vertex(v) => {
                 let mut star = Vec::with_capacity(8);
                 self.star(v, &mut star);

@@ -106,6 +106,8 @@ pub(crate) struct Net {
     tris: Vec<Tri>,
     /// The end points of each piece.
     pub(crate) lines: Vec<[DVec2; 2]>,
+    /// The first piece at which no part of the plane ends, if there is one.
+    pub(crate) soft: Option<u32>,
     /// What was overwritten, oldest first, while `logging`.
     log: Vec<Undo>,
     logging: bool,
@@ -150,6 +152,13 @@ impl Net {
         let id = hexdel_geom::VertexId::new;
         let triangles = vec![[id(0), id(1), id(2)], [id(0), id(2), id(3)]];
         Self::of(&TriMesh { vertices, triangles })
+    }
+
+    /// Whether a part of the plane ends at the edge opposite corner `i`.
+    #[inline]
+    pub(crate) fn is_border(&self, t: u32, i: usize) -> bool {
+        let piece = self.tri(t).s[i];
+        piece != NONE && self.soft.is_none_or(|soft| piece < soft)
     }
 
     #[inline]

@@ -27,6 +27,7 @@ mod rules;
 use crate::areas::AreaLimits;
 use crate::carve::carve;
 use crate::error::PslgError;
+use crate::fans;
 use crate::fit::judge::{Judge, Wedges};
 use crate::hull::with_hull;
 use crate::mesher::{AREA_PER_SPACING_SQ, demand_at};
@@ -87,8 +88,9 @@ pub(crate) fn mesh(
     let judge = Judge { near: options.near, far: options.far, wedges: &wedges };
     // Nothing here takes time that could be spared.
     let deadline = Deadline::after(None);
+    let plain = fans::Scene::plain(input, pieces.clone());
     let parts =
-        Parts { input, pieces: &pieces, sectors: &[], judge, method: options.method, deadline: &deadline };
+        Parts { input, scene: &plain, sectors: &[], judge, method: options.method, deadline: &deadline };
     output::finish(net, &parts, attempt, monitor)
 }
 

@@ -112,7 +112,7 @@ pub enum SessionError {
         id: PointId,
     },
     /// What was read is a session whose mesh does not hold.
-    #[error("no session: {} triangles are out of bounds", certificate.out_of_bounds)]
+    #[error("no session: its mesh does not hold, {} triangles are out of bounds", certificate.out_of_bounds)]
     NotCertified {
         /// What its certificate says.
         certificate: Box<Certificate>,

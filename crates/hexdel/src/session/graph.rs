@@ -237,6 +237,15 @@ impl Session {
         }
     }
 
+    /// The attribute of the region of each triangle of a mesh of this session, 0 if
+    /// it lies in none.
+    pub fn region_attributes(&self, made: &SessionMesh) -> Vec<f64> {
+        let regions = self.frame.as_deref().map_or(&[][..], |frame| &frame.graph.regions);
+        let attribute =
+            |r: &Option<u32>| r.and_then(|r| regions.get(r as usize)).map_or(0.0, |r| r.attribute);
+        made.region_of_triangle.iter().map(attribute).collect()
+    }
+
     /// The certificate of a mesh with segments, against the bounds near them.
     pub(super) fn certificate_of_graph(&self, points: &[DVec2]) -> Certificate {
         let options = CertifyOptions {

@@ -106,7 +106,8 @@ impl Session {
     /// [`SessionError::InvalidDomain`].
     pub fn empty(centre: DVec2, radius: f64) -> Result<Self, SessionError> {
         let reach = centre.abs().max_element() + radius;
-        let fits = radius > FINEST * finest_spacing(DVec2::splat(reach)) && reach < MAX_COORDINATE;
+        let least = (FINEST * finest_spacing(DVec2::splat(reach))).max(1.0 / MAX_COORDINATE);
+        let fits = radius > least && reach < MAX_COORDINATE;
         if !(centre.is_finite() && fits) {
             return Err(SessionError::InvalidDomain { centre, radius });
         }

@@ -1,10 +1,12 @@
 //! Sessions as text (RON), to be continued.
 
 use super::{Frame, PointId, Session, SessionError};
-use crate::size::Size;
+use crate::placement::finest_spacing;
+use crate::size::{Size, SizeError};
+use crate::sized;
 use hexdel_geom::DVec2;
 use hexdel_optimize::live::{LiveMesh, LiveState};
-use hexdel_optimize::{Effort, Sizing};
+use hexdel_optimize::{Effort, SIZE_TOLERANCE, Sizing};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -84,6 +86,8 @@ impl Session {
         if frame.is_some() != live.is_constrained() || frame.as_ref().is_some_and(|f| !f.fits(&live)) {
             return Err(unreadable("segments that are not those of the mesh".to_owned()));
         }
+        let least = finest_spacing(DVec2::splat(centre.abs().max_element() + radius));
+        size.as_ref().map_or(Ok(()), |size| size.check(least))?;
         let session = Self {
             bounds: live.bounds()[1],
             live,
@@ -99,6 +103,12 @@ impl Session {
         let check = session.check();
         if !check.holds() {
             return Err(SessionError::NotCertified { certificate: Box::new(check.certificate) });
+        }
+        if let Some(size) = &session.size {
+            let (ratio, at, length) = sized::worst(&session.mesh().mesh, size);
+            if ratio > 1.0 + SIZE_TOLERANCE {
+                return Err(SizeError::Unreached { at, length }.into());
+            }
         }
         Ok(session)
     }
