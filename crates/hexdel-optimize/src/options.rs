@@ -34,7 +34,7 @@ pub enum Effort {
     #[default]
     Standard,
     /// All passes, then random changes that make more removals possible:
-    /// a tenth fewer triangles than standard in several times the time.
+    /// a tenth fewer triangles than standard in a dozen times the time.
     Best,
 }
 

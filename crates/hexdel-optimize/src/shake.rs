@@ -28,20 +28,24 @@ pub(crate) fn shake(work: &mut Work) {
     let vertices = work.mesh.pos.len();
     for _ in 0..(SHARE * vertices as f64) as usize {
         let v = work.random.below(vertices) as u32;
-        if !work.mesh.alive(v) || work.mesh.is_fixed(v) {
-            continue;
+        if work.mesh.alive(v) && !work.mesh.is_fixed(v) {
+            shake_at(work, v);
         }
-        work.stats.shakes[0] += 1;
-        let changed = if work.random.below(2) == 0 { exchange(work, v) } else { transplant(work, v) };
-        if let Some(changed) = changed
-            && settle(work, &changed, SHAKE)
-        {
-            work.stats.shakes[1] += 1;
-            work.commit();
-            remove_near(work, &changed);
-        } else {
-            work.mesh.rollback();
-        }
+    }
+}
+
+/// A random change at `v`, and the removals that it makes possible.
+pub(crate) fn shake_at(work: &mut Work, v: u32) {
+    work.stats.shakes[0] += 1;
+    let changed = if work.random.below(2) == 0 { exchange(work, v) } else { transplant(work, v) };
+    if let Some(changed) = changed
+        && settle(work, &changed, SHAKE)
+    {
+        work.stats.shakes[1] += 1;
+        work.commit();
+        remove_near(work, &changed);
+    } else {
+        work.mesh.rollback();
     }
 }
 

@@ -203,3 +203,6 @@ impl<'a> Work<'a> {
         self.mesh.live().filter(|&t| !self.is_good(t)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

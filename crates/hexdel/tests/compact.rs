@@ -147,6 +147,22 @@ fn without_time_the_templates_mesh_is_left() {
 }
 
 #[test]
+fn a_budget_that_ends_early_leaves_a_verified_mesh() {
+    let points = generate(Kind::Uniform, 100, 4);
+    let templates = triangulate(&points).unwrap().mesh.triangles.len();
+    for effort in [Effort::Standard, Effort::Best] {
+        for micros in [100, 1_000, 10_000, 50_000] {
+            let budget = Duration::from_micros(micros);
+            let made = compact().effort(effort).budget(budget).triangulate(&points).unwrap();
+            hold(&made, &points, AngleBounds::EXTENDED);
+            assert!(made.mesh.triangles.len() <= templates);
+            // Nothing but the end of the budget keeps vertices that the first pass takes.
+            assert!(made.budget_spent || made.mesh.triangles.len() < templates / 5);
+        }
+    }
+}
+
+#[test]
 fn effort_pays() {
     let points = generate(Kind::Uniform, 40, 3);
     let count = |effort| compact().effort(effort).triangulate(&points).unwrap().mesh.triangles.len();
