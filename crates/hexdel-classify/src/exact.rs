@@ -126,8 +126,10 @@ impl ExactBounds {
         self.hold_at(a, b, c) && self.hold_at(b, c, a) && self.hold_at(c, a, b)
     }
 
+    /// Whether the angle at `a` of the counter-clockwise triangle `a b c` keeps the
+    /// bounds.
     #[inline]
-    const fn hold_at(&self, a: Offset, b: Offset, c: Offset) -> bool {
+    pub const fn hold_at(&self, a: Offset, b: Offset, c: Offset) -> bool {
         let (u, w) = (Offset { q: b.q - a.q, r: b.r - a.r }, Offset { q: c.q - a.q, r: c.r - a.r });
         let (x, d) = (u.det(w), u.dot2(w));
         x > 0 && self.min.0 * x >= self.min.1 * d && self.max.0 * x >= self.max.1 * d

@@ -24,5 +24,5 @@ pub mod relocate;
 
 pub use class::{Class, Classes, View};
 
-pub use dual::{Domain, Dual, DualError, Layout, Occupant, Relocation, extract};
+pub use dual::{Domain, Dual, DualError, KeptDual, Layout, Occupant, Relocation, Touched, extract};
 pub use exact::{ExactBounds, Offset};

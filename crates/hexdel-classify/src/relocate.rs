@@ -99,12 +99,21 @@ pub fn star_points(middle: Direction, before: bool, after: bool) -> [Offset; 3] 
 /// are where the bound is attained, but the dodecagon, which also has corners
 /// at 2/7 of a step on the axes, keeps it and is a seventh larger.
 pub fn ring_may_stay(point: &Located) -> bool {
+    ring_norm(point) <= RING_STAYS
+}
+
+/// Up to which [`ring_norm`] the ring may stay.
+pub const RING_STAYS: f64 = 2.0 / 7.0;
+
+/// How far a point is from its hexagon's centre, in lattice steps, by the norm
+/// whose balls are the dodecagon of [`ring_may_stay`].
+pub fn ring_norm(point: &Located) -> f64 {
     // tan(alpha - 30 degrees) for tan(alpha) = 5 / (3 sqrt 3).
     const SLOPE: f64 = 0.247_435_829_652_696_96;
     let p = point.offset;
-    Direction::ALL[..3].iter().all(|d| {
+    Direction::ALL[..3].iter().fold(0.0, |norm: f64, d| {
         let u = Offset::of(d.step()).cartesian();
-        u.dot(p).abs() + SLOPE * u.perp_dot(p).abs() <= 2.0 / 7.0
+        norm.max(u.dot(p).abs() + SLOPE * u.perp_dot(p).abs())
     })
 }
 

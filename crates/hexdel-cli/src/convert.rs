@@ -1,7 +1,7 @@
 //! `hexdel convert`: a mesh or points from one format to another.
 
 use crate::exit::{Failure, Outcome, Verdict, warn};
-use crate::input::names;
+use crate::input::{is_stream, names};
 use crate::outputs::Outputs;
 use hexdel::geom::Pslg;
 use hexdel_io::{
@@ -65,8 +65,11 @@ pub(crate) fn run(args: &Args) -> Outcome {
     if is_stream(&args.output) {
         return to_stdout(&content, &output);
     }
-    // By its own extension the format writes a pair of files, or picks a delimiter.
-    let by_extension = extension(&args.output).as_deref() == Some(&output);
+    // By its own extension the format may write a pair of files.
+    let by_extension = match content {
+        Content::Mesh(_) => MeshFormat::from_path(&args.output) == MeshFormat::from_name(&output),
+        Content::Points(_) => PointFormat::from_path(&args.output) == PointFormat::from_name(&output),
+    };
     match content {
         Content::Mesh(_) if by_extension => outputs.add_mesh(&args.output)?,
         Content::Points(_) if by_extension => outputs.add_points(&args.output)?,
@@ -182,10 +185,6 @@ fn names_format(name: &str) -> bool {
     MeshFormat::from_name(name).is_some() || PointFormat::from_name(name).is_some()
 }
 
-fn is_stream(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
-
 /// What messages call the file.
 fn name(path: &Path, stream: &str) -> String {
     if is_stream(path) { format!("standard {stream}") } else { path.display().to_string() }
@@ -197,11 +196,12 @@ fn extension(path: &Path) -> Option<String> {
 
 /// Says what the format has no place for.
 fn report_losses(content: &Content, format: &str, output: &Path) {
-    if let (Content::Mesh(mesh), Some(format)) = (content, MeshFormat::from_name(format)) {
-        let lost = mesh.view().lost_in(format);
-        if !lost.is_empty() {
-            warn(&format!("{}: the format has no {}", name(output, "output"), lost.join(", ")));
-        }
+    let lost = match content {
+        Content::Mesh(mesh) => MeshFormat::from_name(format).map(|format| mesh.view().lost_in(format)),
+        Content::Points(points) => PointFormat::from_name(format).map(|format| format.lost(points)),
+    };
+    if let Some(lost) = lost.filter(|lost| !lost.is_empty()) {
+        warn(&format!("{}: the format has no {}", name(output, "output"), lost.join(", ")));
     }
 }
 

@@ -2,7 +2,8 @@
 //! all or none.
 //!
 //! Every file is first written under its own name in a temporary folder beside
-//! its place, on the same file system, and renamed when all are complete.
+//! its place, on the same file system, and renamed when all are complete: only
+//! the system refusing a name then could leave some without the others.
 
 use crate::exit::{Failure, print};
 use hexdel_io::{DualFormat, MeshFormat, PointFormat, WriteError};

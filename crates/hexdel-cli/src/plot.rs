@@ -12,7 +12,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
     The bounds are where colour scales end and what the histogram marks; angles\n\
     beyond them are red. Levels and classes are those of the hexagons behind a\n\
-    mesh, which files do not tell: `hexdel mesh` has these options too.\n\n\
+    mesh, which files do not tell: `hexdel mesh` has these options too, --size as\n\
+    --pixels.\n\n\
     Examples:\n  \
     hexdel plot mesh.ele -o mesh.svg --histogram\n  \
     hexdel plot mesh.ele -o corner.png --colour largest --zoom 0,0,0.5,0.5 --size 2000")]

@@ -5,9 +5,25 @@ use thiserror::Error;
 
 /// An interval of angles, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Interval")]
 pub struct AngleBounds {
     min_deg: f64,
     max_deg: f64,
+}
+
+/// What bounds are read as, before they are checked.
+#[derive(Deserialize)]
+struct Interval {
+    min_deg: f64,
+    max_deg: f64,
+}
+
+impl TryFrom<Interval> for AngleBounds {
+    type Error = BoundsError;
+
+    fn try_from(Interval { min_deg, max_deg }: Interval) -> Result<Self, BoundsError> {
+        Self::new(min_deg, max_deg)
+    }
 }
 
 /// Why two numbers are no angle bounds.
@@ -64,5 +80,22 @@ impl AngleBounds {
 impl Default for AngleBounds {
     fn default() -> Self {
         Self::EXTENDED
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_read_is_checked() {
+        let read = |min: f64, max: f64| {
+            let text = format!(r#"{{"min_deg": {min}, "max_deg": {max}}}"#);
+            serde_json::from_str::<AngleBounds>(&text).ok()
+        };
+        assert_eq!(read(30.0, 90.0), AngleBounds::new(30.0, 90.0).ok());
+        for (min, max) in [(-1.0, 90.0), (61.0, 90.0), (30.0, 59.0), (30.0, 1e300)] {
+            assert_eq!(read(min, max), None, "{min} {max}");
+        }
     }
 }

@@ -100,7 +100,7 @@ pub struct FlipReport {
 ///
 /// A parallel linear scan with 14 bytes per triangle; nothing else if nothing
 /// is found. Repairs are sequential, in the order of the vertices, and limited
-/// to a fixed number for each edge found; each takes time in proportion to the
+/// to 64 for each edge found and each triangle; each takes time in proportion to the
 /// triangles around its vertices.
 pub fn restore_delaunay(
     mesh: &mut TriMesh,

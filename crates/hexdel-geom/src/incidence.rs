@@ -266,7 +266,7 @@ impl Fan {
         }
         // From the start of the only path, or from anywhere on a cycle, all
         // triangles have to be reached.
-        let start = self.predecessor.iter().position(|&p| p == NONE).unwrap_or(0) as u32;
+        let start = self.start() as u32;
         let (mut at, mut steps) = (start, 0);
         while let Some(&successor) = self.successor.get(at as usize) {
             (at, steps) = (successor, steps + 1);
@@ -275,6 +275,12 @@ impl Fan {
             }
         }
         steps == self.len()
+    }
+
+    /// Where a single fan begins: the triangle that is no other's successor, or
+    /// any if there is none.
+    pub(crate) fn start(&self) -> usize {
+        if self.closed { 0 } else { self.predecessor.iter().position(|&p| p == NONE).unwrap_or(0) }
     }
 
     /// The edges from vertex `v` that have a triangle on both sides and lead

@@ -45,6 +45,7 @@ mod scale;
 pub use bounds::{AngleBounds, BoundsError};
 pub use certificate::{
     ANGLE_TOLERANCE_DEG, Certificate, CertifyOptions, LENGTH_TOLERANCE, Violation, certify, keeps_bounds,
+    keeps_bounds_at,
 };
 pub use circle::{Circle, smallest_enclosing_circle};
 pub use closest_pair::{ClosestPair, closest_pair};

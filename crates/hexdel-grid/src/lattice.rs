@@ -106,6 +106,25 @@ impl Lattice {
         Located { hex, offset: self.offset(level, hex, x, y) }
     }
 
+    /// The hexagon of the level below `level` whose cell holds a point that lies
+    /// at `at` on `level`: the same that [`locate`](Self::locate) finds, in a
+    /// fraction of its time. The offset is good to a millionth, where `at` is
+    /// what either of the two found.
+    #[inline]
+    pub fn locate_below(&self, level: u8, at: &Located, point: DVec2) -> Located {
+        // Each level doubles the error of the offset, which was rounded in its
+        // last place sixteen levels ago at most.
+        const NEAR_EDGE: f64 = 1e-6;
+        let scaled = 2.0 * at.offset;
+        let step = nearest(scaled.x - scaled.y / SQRT_3, scaled.y / Double::HALF_SQRT_3.hi);
+        let centre = DVec2::new(step.q as f64 + 0.5 * step.r as f64, Double::HALF_SQRT_3.hi * step.r as f64);
+        let offset = scaled - centre;
+        if level % 16 == 15 || hexagonal_norm(offset) > 0.5 - NEAR_EDGE {
+            return self.locate(level + 1, point);
+        }
+        Located { hex: at.hex.scaled() + step, offset }
+    }
+
     /// From the centre of `hex` to the point `(x, y)` relative to the origin,
     /// in units of the level's spacing.
     fn offset(&self, level: u8, hex: Hex, x: Double, y: Double) -> DVec2 {
@@ -157,6 +176,26 @@ mod tests {
         let back = lattice.position(Address::new(45, at.hex)) + at.offset * lattice.spacing(45);
         assert!((back - p).length() < 1e-27, "{back} {p}");
         assert!(hexagonal_norm(at.offset) <= 0.5 + 1e-12);
+    }
+
+    #[test]
+    fn points_are_found_from_the_level_above() {
+        let lattice = Lattice::new(DVec2::new(0.1, -0.3), 5.0);
+        for i in 0..2000 {
+            // Some on edges and corners of many levels.
+            let p = match i % 4 {
+                0 => lattice.position(Address::new(9, Hex::new(i % 37 - 17, i % 53 - 20))) * 0.5,
+                1 => DVec2::new(0.1 + 5.0 / 64.0 * (i % 29) as f64, -0.3),
+                _ => DVec2::new(i as f64 * 0.00137 - 1.0, (i * 7 % 1000) as f64 * 0.0011 - 1.0),
+            };
+            let mut at = lattice.locate(0, p);
+            for level in 0..44 {
+                at = lattice.locate_below(level, &at, p);
+                let exact = lattice.locate(level + 1, p);
+                assert_eq!(at.hex, exact.hex, "level {level}");
+                assert!((at.offset - exact.offset).length() < 1e-6);
+            }
+        }
     }
 
     #[test]

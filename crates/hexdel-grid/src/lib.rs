@@ -28,5 +28,5 @@ pub use hexdel_geom::double_double as double;
 pub use axial::{Address, Direction, Hex};
 pub use grid::{Grid, HexKind, MergeError, Neighbour};
 pub use lattice::{Lattice, Located};
-pub use tiles::{Tile, TileId, Tiles};
+pub use tiles::{Margin, Tile, TileId, Tiles};
 pub use window::Window;

@@ -6,7 +6,7 @@
 //! ever looked up by hashing, except the few roots.
 
 use crate::axial::Hex;
-use crate::window::Window;
+use crate::window::{Window, ones};
 use rustc_hash::FxHashMap;
 
 /// Hexagons along a tile's side.
@@ -64,6 +64,24 @@ impl Tile {
     #[inline]
     pub const fn first(&self) -> Hex {
         Hex::new(self.position.0 * SIDE, self.position.1 * SIDE)
+    }
+}
+
+/// The existing tiles of the 3 x 3 around one, and which of them a change in
+/// it reaches.
+#[derive(Clone, Copy, Debug)]
+pub struct Margin {
+    around: [TileId; 9],
+    /// A bit for each.
+    reached: u16,
+}
+
+impl Margin {
+    /// The tiles, each with whether it is reached.
+    #[inline]
+    pub fn iter(&self) -> impl Iterator<Item = (TileId, bool)> {
+        let all = self.around.into_iter().enumerate();
+        all.filter_map(|(i, tile)| Some((tile.some()?, self.reached >> i & 1 == 1)))
     }
 }
 
@@ -151,11 +169,6 @@ impl Tiles {
         self.get(level, id).around[(3 * (row + 1) + column + 1) as usize].some()
     }
 
-    /// The existing tiles among the 3 x 3 around, itself included.
-    pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
-        self.get(level, id).around.into_iter().filter_map(TileId::some)
-    }
-
     /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
     /// to 1.
     pub fn require_beside(&mut self, level: u8, id: TileId, column: i64, row: i64) -> TileId {
@@ -190,7 +203,7 @@ impl Tiles {
         let position = (2 * q + (quadrant as i64 & 1), 2 * r + (quadrant as i64 >> 1));
         let child = self.push(level + 1, position, id);
         self.get_mut(level, id).children[quadrant] = child;
-        self.link(level + 1, child);
+        self.link_child(level + 1, child, quadrant);
         child
     }
 
@@ -242,21 +255,22 @@ impl Tiles {
         )
     }
 
-    /// Makes the tiles exist whose window reaches one of `bits`, those within
-    /// [`Window::MARGIN`] hexagons, and calls `with` for each of them, the tile
-    /// itself included.
-    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64, mut with: impl FnMut(TileId)) {
-        // A bit in a half of the tile is within four hexagons of the tile
-        // beyond that half's side.
-        const LEFT: u64 = 0x0f0f_0f0f_0f0f_0f0f;
-        const LOW: u64 = 0x0000_0000_ffff_ffff;
-        for (row, rows) in [(-1, LOW), (0, u64::MAX), (1, !LOW)] {
-            for (column, columns) in [(-1, LEFT), (0, u64::MAX), (1, !LEFT)] {
-                if bits & rows & columns != 0 {
-                    with(self.require_beside(level, id, column, row));
-                }
-            }
+    /// The existing tiles among the 3 x 3 around, itself included.
+    pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
+        self.get(level, id).around.into_iter().filter_map(TileId::some)
+    }
+
+    /// Makes the tiles exist whose window shows one of `bits`, and says which of
+    /// them lie within [`Window::MARGIN`] steps of one.
+    #[inline]
+    pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) -> Margin {
+        let shown = reach(bits, &QUARTERS);
+        let around = &self.get(level, id).around;
+        let existing = (0..9).fold(0, |all, i| all | u16::from(around[i] != TileId::NONE) << i);
+        for i in ones(u64::from(shown & !existing)) {
+            self.require_beside(level, id, i64::from(i) % 3 - 1, i64::from(i) / 3 - 1);
         }
+        Margin { around: self.get(level, id).around, reached: shown & reach(bits, &CORNERS) }
     }
 
     fn require_root(&mut self, position: (i64, i64)) -> TileId {
@@ -265,7 +279,12 @@ impl Tiles {
         }
         let root = self.push(0, position, TileId::NONE);
         self.roots.insert(position, root);
-        self.link(0, root);
+        for i in 0..9 {
+            let beside = (position.0 + i as i64 % 3 - 1, position.1 + i as i64 / 3 - 1);
+            if let Some(&other) = self.roots.get(&beside) {
+                self.link(0, root, other, i);
+            }
+        }
         root
     }
 
@@ -287,29 +306,52 @@ impl Tiles {
         id
     }
 
-    /// Links a new tile and its existing neighbours with each other.
-    fn link(&mut self, level: u8, id: TileId) {
+    /// Links a new tile in a quadrant of its parent with its existing
+    /// neighbours, which are children of the parent and of its neighbours.
+    fn link_child(&mut self, level: u8, id: TileId, quadrant: usize) {
+        let parents = self.get(level - 1, self.get(level, id).parent).around;
         for i in 0..9 {
-            let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
-            if let Some(other) = self.find_beside(level, id, column, row) {
-                self.get_mut(level, id).around[i] = other;
-                self.get_mut(level, other).around[8 - i] = id;
+            let (column, row) = (quadrant % 2 + i % 3 + 1, quadrant / 2 + i / 3 + 1);
+            if let Some(parent) = parents[3 * (row / 2) + column / 2].some()
+                && let Some(other) = self.child(level - 1, parent, 2 * (row % 2) + column % 2)
+            {
+                self.link(level, id, other, i);
             }
         }
     }
 
-    /// A neighbour found through the parents, for a tile not linked yet.
-    fn find_beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
-        let tile = self.get(level, id);
-        let position = (tile.position.0 + column, tile.position.1 + row);
-        let Some(parent) = tile.parent.some() else {
-            return self.roots.get(&position).copied();
-        };
-        let from = self.get(level - 1, parent).position;
-        let parent =
-            self.beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1)?;
-        self.child(level - 1, parent, quadrant(position))
+    /// Links two tiles, the second being the one at `place` of the first.
+    #[inline]
+    fn link(&mut self, level: u8, id: TileId, other: TileId, place: usize) {
+        self.get_mut(level, id).around[place] = other;
+        self.get_mut(level, other).around[8 - place] = id;
     }
+}
+
+/// Bits of a tile, and a bit for each of the 3 x 3 tiles around.
+type Reach = (u64, u16);
+
+/// The windows that show a quarter of the tile: its own, those of the tiles
+/// beside the quarter and of the one across its corner.
+const QUARTERS: [Reach; 4] = [
+    (0x0000_0000_0f0f_0f0f, 0b000_011_011),
+    (0x0000_0000_f0f0_f0f0, 0b000_110_110),
+    (0x0f0f_0f0f_0000_0000, 0b011_011_000),
+    (0xf0f0_f0f0_0000_0000, 0b110_110_000),
+];
+
+/// The same by steps: across two of the corners it is as far in steps as in
+/// rows and columns together, so that six hexagons are near.
+const CORNERS: [Reach; 3] = [
+    (u64::MAX, 0b011_111_110),
+    (0x0000_0000_0001_0307, 0b000_000_001),
+    (0xe0c0_8000_0000_0000, 0b100_000_000),
+];
+
+/// What some bits of a tile reach.
+#[inline]
+fn reach(bits: u64, parts: &[Reach]) -> u16 {
+    parts.iter().fold(0, |all, (part, reached)| if bits & part == 0 { all } else { all | reached })
 }
 
 /// The tile position of a hexagon and its bit within the tile.
@@ -368,14 +410,31 @@ mod tests {
     fn margins_are_made_where_bits_reach_them() {
         let mut tiles = Tiles::default();
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
-        let mut reached = Vec::new();
-        tiles.require_margin(1, id, 1 << bit, |tile| reached.push(tile));
-        assert_eq!(reached.len(), tiles.level(1).len());
+        let reached = tiles.require_margin(1, id, 1 << bit);
+        assert_eq!(reached.iter().filter(|(_, reached)| *reached).count(), tiles.level(1).len());
         let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
         let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
         let mut made_sorted = made;
         made_sorted.sort();
         expected.sort();
         assert_eq!(made_sorted, expected);
+    }
+
+    #[test]
+    fn tiles_are_reached_within_four_steps() {
+        let mut tiles = Tiles::default();
+        let (id, _) = tiles.require(1, Hex::ORIGIN);
+        tiles.require_margin(1, id, u64::MAX);
+        for bit in 0..64 {
+            let at = Hex::new(bit % 8, bit / 8);
+            let margin = tiles.require_margin(1, id, 1 << bit);
+            assert_eq!(margin.iter().count(), 9);
+            for (tile, reached) in margin.iter() {
+                let first = tiles.get(1, tile).first();
+                let hexes = (0..64).map(|i| first + Hex::new(i % 8, i / 8));
+                let nearest = hexes.map(|h| h.distance(at)).min();
+                assert_eq!(reached, nearest <= Some(Window::MARGIN as u64), "{at:?}, {first:?}");
+            }
+        }
     }
 }

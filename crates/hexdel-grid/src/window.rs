@@ -107,33 +107,46 @@ impl Window {
         self | east | west | (self | west).seen_above() | (self | east).seen_below()
     }
 
-    /// The hexagons with another one of this set at most `n` steps away.
+    /// The hexagons with another one of this set at most `N` steps away.
     #[must_use]
-    pub fn others_within(self, n: usize) -> Self {
-        if n == 1 {
+    pub fn others_within<const N: usize>(self) -> Self {
+        if N == 1 {
             let [a, b, c, d, e, f] = self.each_way();
             return a | b | c | d | e | f;
         }
-        // Row by row: `n` steps away in row `r` are columns -n to n - r. Of a
+        // Row by row: `N` steps away in row `r` are columns -N to N - r. Of a
         // hexagon's own row, all but itself; of those above and below, with
         // the lines shifted on from row to row, outermost first.
         let (mut right, mut left) = ([self; Self::MARGIN as usize], [self; Self::MARGIN as usize]);
-        for k in 1..=n {
+        for k in 1..=N {
             right[k] = right[k - 1] | right[k - 1].seen_east();
             left[k] = left[k - 1] | left[k - 1].seen_west();
         }
         let (mut above, mut below) = (Self::EMPTY, Self::EMPTY);
-        for r in (1..=n).rev() {
-            above = (above | right[n - r] | left[n]).seen_above();
-            below = (below | left[n - r] | right[n]).seen_below();
+        for r in (1..=N).rev() {
+            above = (above | right[N - r] | left[N]).seen_above();
+            below = (below | left[N - r] | right[N]).seen_below();
         }
-        above | below | right[n - 1].seen_east() | left[n - 1].seen_west()
+        above | below | right[N - 1].seen_east() | left[N - 1].seen_west()
     }
 
     /// Whether no hexagon is in the set.
     #[inline]
     pub fn is_empty(self) -> bool {
         self.0[0] | self.0[1] | self.0[2] | self.0[3] == 0
+    }
+
+    /// Whether at least two hexagons are in the set.
+    #[inline]
+    pub fn holds_several(self) -> bool {
+        // The lowest of each word is left away; what is left, and what two
+        // words have, is more than one.
+        let (mut any, mut more) = (false, false);
+        for word in self.0 {
+            more |= word & word.wrapping_sub(1) != 0 || any && word != 0;
+            any |= word != 0;
+        }
+        more
     }
 
     /// How many hexagons are in the set.
@@ -173,10 +186,20 @@ impl Window {
 
     /// The members, relative to the tile's first hexagon: word by word, that is
     /// every fourth row and then the next ones, and from west to east in a row.
+    #[inline]
     pub fn iter(self) -> impl Iterator<Item = Hex> {
-        let base = Hex::new(-Self::MARGIN, -Self::MARGIN);
-        self.0.into_iter().zip(0..).flat_map(move |(word, k)| {
-            ones(word).map(move |b| base + Hex::new(i64::from(b % 16), k + i64::from(b / 16 * 4)))
+        let Self(mut words) = self;
+        let mut k = 0;
+        std::iter::from_fn(move || {
+            while words[k] == 0 {
+                if k == 3 {
+                    return None;
+                }
+                k += 1;
+            }
+            let b = i64::from(words[k].trailing_zeros());
+            words[k] &= words[k] - 1;
+            Some(Hex::new(b % 16 - Self::MARGIN, b / 16 * 4 + k as i64 - Self::MARGIN))
         })
     }
 
@@ -354,8 +377,9 @@ mod tests {
     #[test]
     fn others_are_found_at_every_distance() {
         for at in Window::with_margin(0).iter() {
-            for n in 1..=3 {
-                let near = single(at.q, at.r).others_within(n as usize);
+            let set = single(at.q, at.r);
+            let near = [set.others_within::<1>(), set.others_within::<2>(), set.others_within::<3>()];
+            for (n, near) in (1..).zip(near) {
                 let expected: Window = at.disc(n).filter(|&h| h != at).collect();
                 assert_eq!(near, expected);
             }
@@ -381,6 +405,18 @@ mod tests {
             for d in Direction::ALL {
                 assert_eq!(set.ring_of(at) >> d.index() & 1 == 1, set.contains(at.neighbour(d)));
             }
+        }
+    }
+
+    #[test]
+    fn several_are_more_than_one() {
+        assert!(!Window::EMPTY.holds_several());
+        for at in Window::FULL.iter() {
+            let mut set = single(at.q, at.r);
+            assert!(!set.holds_several());
+            set.insert(Hex::new(at.r, 3));
+            set.insert(Hex::new(-2, at.q));
+            assert_eq!(set.holds_several(), set.count() > 1);
         }
     }
 

@@ -10,6 +10,7 @@ use std::path::Path;
 use hexdel_geom::DVec2;
 
 use crate::error::ReadError;
+use crate::lines::{Comments, Lines, Row};
 
 /// Square cells with a number each.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,19 +50,13 @@ pub fn read_raster(path: &Path) -> Result<Raster, ReadError> {
 /// # Errors
 ///
 /// As [`read_raster`].
-pub fn parse_raster(mut reader: impl BufRead, file: &str) -> Result<Raster, ReadError> {
+pub fn parse_raster(reader: impl BufRead, file: &str) -> Result<Raster, ReadError> {
     let mut parser = Parser { file, header: Header::default(), values: Vec::new() };
-    let (mut bytes, mut line) = (Vec::new(), 0);
-    loop {
-        bytes.clear();
-        let read = reader.read_until(b'\n', &mut bytes);
-        if read.map_err(|source| ReadError::Io { file: file.to_owned(), source })? == 0 {
-            return parser.finish(line);
-        }
-        line += 1;
-        let text = std::str::from_utf8(&bytes);
-        parser.line(text.map_err(|_| ReadError::NotUtf8 { file: file.to_owned(), line })?, line)?;
+    let mut lines = Lines::new(reader, file, Comments::Nowhere);
+    while let Some(row) = lines.next_row()? {
+        parser.line(row)?;
     }
+    parser.finish(lines.number())
 }
 
 #[derive(Default)]
@@ -93,16 +88,15 @@ impl Parser<'_> {
         ReadError::Raster { file: self.file.to_owned(), line, message }
     }
 
-    fn line(&mut self, text: &str, line: u64) -> Result<(), ReadError> {
-        let mut words = text.trim_start_matches('\u{feff}').split_whitespace();
-        let Some(first) = words.clone().next() else {
-            return Ok(());
-        };
-        if self.values.is_empty() && first.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_nan(first) {
-            words.next();
-            let value = words.next().ok_or_else(|| self.bad(line, format!("{first} has no value")))?;
+    fn line(&mut self, Row { text, line, .. }: Row<'_>) -> Result<(), ReadError> {
+        let mut words = text.split_whitespace();
+        let is_name = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_number(word);
+        if self.values.is_empty()
+            && let Some(name) = words.clone().next().filter(|word| is_name(word))
+        {
+            let value = words.nth(1).ok_or_else(|| self.bad(line, format!("{name} has no value")))?;
             return match words.next() {
-                None => self.entry(first, value, line),
+                None => self.entry(name, value, line),
                 Some(more) => Err(self.bad(line, format!("{more} is more than a name and a value"))),
             };
         }
@@ -160,7 +154,8 @@ impl Parser<'_> {
     }
 }
 
-fn is_nan(word: &str) -> bool {
+/// Whether a word is a value, `nan` among them.
+fn is_number(word: &str) -> bool {
     word.parse::<f64>().is_ok()
 }
 
@@ -185,6 +180,13 @@ mod tests {
     fn values_may_be_broken_into_lines_anywhere() {
         let raster = parse(&format!("{HEADER}1\n2 3\n\nnan")).unwrap();
         assert_eq!(raster.values, [Some(3.0), None, Some(1.0), Some(2.0)]);
+    }
+
+    #[test]
+    fn lines_are_bounded() {
+        let error = parse_raster(std::io::BufReader::new(std::io::repeat(b'0')), "zero");
+        assert!(matches!(error, Err(ReadError::LineTooLong { line: 1, .. })));
+        assert!(parse(&format!("\u{feff}{HEADER}1 2 3 4")).is_ok());
     }
 
     #[test]

@@ -10,9 +10,14 @@ pub enum PointFormat {
     Node,
     /// Triangle's `.poly`: points, segments, holes and regions.
     Poly,
-    /// A text table of which x and y are two columns: `.csv`, `.tsv`, `.xyz`,
-    /// `.txt`, `.pts`. The delimiter is found out from the text.
+    /// A text table of which x and y are two columns: `.xyz`, `.txt`, `.pts`.
+    /// Written with spaces and without header; when any table is read, the
+    /// delimiter and whether there is a header are found out from the text.
     Table,
+    /// A table with commas and a header, `.csv`.
+    Csv,
+    /// A table with tabs and a header, `.tsv`.
+    Tsv,
     /// `GeoJSON` (RFC 7946), `.geojson`. Read only.
     GeoJson,
     /// Well-known text, `.wkt`. Read only.
@@ -33,8 +38,8 @@ type Names<F> = &'static [(&'static str, F)];
 const POINT_NAMES: Names<PointFormat> = &[
     ("node", PointFormat::Node),
     ("poly", PointFormat::Poly),
-    ("csv", PointFormat::Table),
-    ("tsv", PointFormat::Table),
+    ("csv", PointFormat::Csv),
+    ("tsv", PointFormat::Tsv),
     ("xyz", PointFormat::Table),
     ("txt", PointFormat::Table),
     ("pts", PointFormat::Table),
@@ -91,6 +96,26 @@ impl PointFormat {
     /// The format's name.
     pub fn name(self) -> &'static str {
         name_of(POINT_NAMES, self)
+    }
+
+    /// What of a graph's points a file in this format is without. Segments, holes
+    /// and regions are never lost: a format without them is refused.
+    ///
+    /// ```
+    /// use hexdel_geom::{DVec2, Pslg};
+    /// use hexdel_io::PointFormat;
+    ///
+    /// let marked = Pslg { point_markers: vec![1], ..Pslg::from_points(vec![DVec2::ZERO]) };
+    /// assert_eq!(PointFormat::Csv.lost(&marked), ["point markers"]);
+    /// assert!(PointFormat::Node.lost(&marked).is_empty());
+    /// ```
+    pub fn lost(self, pslg: &hexdel_geom::Pslg) -> Vec<&'static str> {
+        let keeps_all = !matches!(self, Self::Table | Self::Csv | Self::Tsv);
+        let all = [
+            ("point markers", pslg.point_markers.is_empty()),
+            ("point attributes", pslg.point_attributes.is_empty()),
+        ];
+        all.into_iter().filter(|(_, empty)| !empty && !keeps_all).map(|(name, _)| name).collect()
     }
 
     /// Whether the format can be written.

@@ -1,11 +1,11 @@
 //! Parsing JSON that lies in memory, with faults that name file, line and column.
 
-use std::io::BufRead;
+use std::io::{self, BufRead};
 
 use serde::de::DeserializeOwned;
 
 use crate::error::ReadError;
-use crate::lines::clip_message;
+use crate::lines::{BYTE_ORDER_MARK, clip_message};
 
 /// A text to be parsed and what errors call it.
 pub(crate) struct Source<'a> {
@@ -17,10 +17,18 @@ pub(crate) struct Source<'a> {
 pub(crate) fn slurp(mut reader: impl BufRead, file: &str) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     reader.read_to_end(&mut bytes).map_err(|source| ReadError::Io { file: file.to_owned(), source })?;
-    if bytes.starts_with(b"\xef\xbb\xbf") {
-        bytes.drain(..3);
+    if bytes.starts_with(BYTE_ORDER_MARK) {
+        bytes.drain(..BYTE_ORDER_MARK.len());
     }
     Ok(bytes)
+}
+
+/// Takes the mark from the front of a stream, if there is one.
+pub(crate) fn skip_byte_order_mark(reader: &mut impl BufRead) -> io::Result<()> {
+    if reader.fill_buf()?.starts_with(BYTE_ORDER_MARK) {
+        reader.consume(BYTE_ORDER_MARK.len());
+    }
+    Ok(())
 }
 
 /// Parses a text.

@@ -14,6 +14,9 @@ use crate::error::ReadError;
 /// this leaves room for tens of thousands of attributes per point.
 pub(crate) const MAX_LINE: usize = 1 << 20;
 
+/// What some editors put before a text in UTF-8.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// The longest quotation from a file in an error, in characters.
 const MAX_QUOTE: usize = 40;
 
@@ -87,7 +90,6 @@ impl<R: BufRead> Lines<R> {
 
     /// Reads one line without its end into the buffer; false at the end of file.
     fn fill(&mut self) -> Result<bool, ReadError> {
-        const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
         self.buffer.clear();
         let mut bounded = self.reader.by_ref().take(MAX_LINE as u64 + 1);
         let read = bounded.read_until(b'\n', &mut self.buffer);

@@ -18,9 +18,16 @@ use crate::view::{MarkedEdge, MeshView};
 /// The most items, so that 32-bit ids reach all of them.
 const MAX_ITEMS: u64 = u32::MAX as u64;
 
-/// Sections of vertex, edge or triangle numbers that are left.
-const LISTS: [&str; 6] =
-    ["Corners", "RequiredVertices", "Ridges", "RequiredEdges", "RequiredTriangles", "SubDomainFromMesh"];
+/// Sections of integers that are left, and how many make an item.
+const LISTS: [(&str, u32); 6] = [
+    ("Corners", 1),
+    ("RequiredVertices", 1),
+    ("Ridges", 1),
+    ("RequiredEdges", 1),
+    ("RequiredTriangles", 1),
+    // Dimension, triangle, orientation, reference: BAMG's.
+    ("SubDomainFromMesh", 4),
+];
 
 /// Finds a region that is no integer and hence no reference.
 pub(crate) fn check_regions(view: &MeshView<'_>, file: &str) -> Result<(), WriteError> {
@@ -86,13 +93,15 @@ pub(crate) fn read_medit(reader: impl BufRead, file: &str) -> Result<MeshData, R
             "Vertices" => parts.vertices(&mut tokens)?,
             "Edges" => parts.edges(&mut tokens)?,
             "Triangles" => parts.triangles(&mut tokens)?,
-            list if LISTS.contains(&list) => skip(&mut tokens)?,
             "Quadrilaterals" | "Tetrahedra" | "Hexahedra" => {
                 if tokens.parse::<u64>("a number of cells")? > 0 {
                     return Err(tokens.unsupported(format!("a section {word}")));
                 }
             }
-            _ => return Err(tokens.malformed("a section of a Medit file", None)),
+            other => match LISTS.iter().find(|(name, _)| *name == other) {
+                Some(&(_, columns)) => skip(&mut tokens, columns)?,
+                None => return Err(tokens.malformed("a section of a Medit file", None)),
+            },
         }
     }
     parts.finish(&tokens)
@@ -176,11 +185,13 @@ impl Parts {
     }
 }
 
-fn skip<R: BufRead>(tokens: &mut Tokens<R>) -> Result<(), ReadError> {
+fn skip<R: BufRead>(tokens: &mut Tokens<R>, columns: u32) -> Result<(), ReadError> {
     let count: u64 = tokens.parse("the number of items")?;
     for index in 0..count {
         tokens.item("items", index, count)?;
-        tokens.parse::<i64>("an integer")?;
+        for _ in 0..columns {
+            tokens.parse::<i64>("an integer")?;
+        }
     }
     Ok(())
 }
@@ -195,7 +206,7 @@ mod tests {
 
     #[test]
     fn sections_in_any_order() {
-        let text = "MeshVersionFormatted 1\n# c\nDimension\n3\nTriangles 1 1 2 3 0 Corners 2 1 2\n\
+        let text = "MeshVersionFormatted 1\n# c\nDimension\n3\nTriangles 1 1 2 3 0 Corners 2 1 2\nSubDomainFromMesh 2 3 1 1 0 3 1 -1 7\n\
                     Vertices 3\n0 0 0 5\n1 0 0 0\n0 1 0 0\nTetrahedra 0\nEnd\nwhatever";
         let data = read(text).unwrap();
         assert_eq!(data.mesh.triangles, [[0, 1, 2].map(VertexId::new)]);

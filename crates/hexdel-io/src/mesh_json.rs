@@ -20,7 +20,7 @@ use hexdel_geom::VertexId;
 
 use crate::data::{MeshData, MeshDocument};
 use crate::error::ReadError;
-use crate::json::json_error;
+use crate::json::{json_error, skip_byte_order_mark};
 use crate::text::TextWriter;
 use crate::view::MeshView;
 
@@ -78,7 +78,8 @@ fn indices(text: &mut TextWriter<'_>, vertices: &[VertexId]) {
 }
 
 /// Reads a mesh; other members are left.
-pub(crate) fn read_json(reader: impl BufRead, file: &str) -> Result<MeshData, ReadError> {
+pub(crate) fn read_json(mut reader: impl BufRead, file: &str) -> Result<MeshData, ReadError> {
+    skip_byte_order_mark(&mut reader).map_err(|source| ReadError::Io { file: file.to_owned(), source })?;
     let document: MeshDocument = serde_json::from_reader(reader).map_err(|error| {
         if error.is_io() {
             ReadError::Io { file: file.to_owned(), source: error.into() }

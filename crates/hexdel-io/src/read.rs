@@ -12,6 +12,7 @@ use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::format::{MeshFormat, PointFormat};
 use crate::json::{Source, parse, slurp};
+use crate::lines::BYTE_ORDER_MARK;
 use crate::triangle::PointRange;
 use crate::{
     geojson, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh, obj, off, table, triangle, vtu_in, wkt,
@@ -77,7 +78,7 @@ pub fn read_points_from(reader: impl BufRead, format: PointFormat, name: &str) -
         PointFormat::Poly => triangle::read_poly(reader, name, |line| {
             Err(ReadError::PointsElsewhere { file: name.to_owned(), line })
         }),
-        PointFormat::Table => table::read_table(reader, name),
+        PointFormat::Table | PointFormat::Csv | PointFormat::Tsv => table::read_table(reader, name),
         PointFormat::Wkt => wkt::read_wkt(reader, name),
         PointFormat::GeoJson => read_all(geojson::read_geojson, reader),
         PointFormat::Json => read_all(graph_json::read_any_json, reader),
@@ -167,7 +168,7 @@ pub fn read_mesh_from(reader: impl BufRead, format: MeshFormat, name: &str) -> R
 /// assert!(!holds_mesh(br#"{"points": [[0, 0]]}"#, MeshFormat::Json));
 /// ```
 pub fn holds_mesh(text: &[u8], format: MeshFormat) -> bool {
-    let source = Source { bytes: text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text), file: "" };
+    let source = Source { bytes: text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text), file: "" };
     match format {
         MeshFormat::Ron => mesh_ron::parse_ron::<MeshProbe>(&source).is_ok(),
         _ => parse::<MeshProbe>(&source).is_ok(),

@@ -5,9 +5,10 @@
 //! of the last one (0 if it is full), the compressed length of each, and the blocks. In
 //! base64 the lengths may be encoded for themselves, with padding in the middle.
 //!
-//! Values are held as doubles or as 64-bit integers' doubles: every index and marker
-//! fits, larger integers are none. Memory grows with what a file holds, compressed data
-//! with what it decompresses to, at most a thousandfold.
+//! Values are held as their bytes and read as doubles: every index and marker fits,
+//! larger integers are none. Memory grows with what a file holds, compressed data with
+//! what they decompress to, at most a thousandfold, and twice that where arrays share
+//! their bytes.
 
 use std::io::Read;
 
@@ -107,7 +108,7 @@ impl Encoding {
 
 /// The type of an array's values.
 #[derive(Clone, Copy)]
-struct Kind {
+pub(crate) struct Kind {
     float: bool,
     signed: bool,
     bytes: usize,
@@ -148,16 +149,32 @@ impl Kind {
 }
 
 /// The values of an array.
-#[derive(Default)]
-pub(crate) struct Values(Vec<f64>);
+pub(crate) enum Values {
+    Numbers(Vec<f64>),
+    /// Whole values of a kind, one after the other.
+    Bytes {
+        bytes: Vec<u8>,
+        kind: Kind,
+        big_endian: bool,
+    },
+}
 
 impl Values {
     pub(crate) fn len(&self) -> usize {
-        self.0.len()
+        match self {
+            Self::Numbers(numbers) => numbers.len(),
+            Self::Bytes { bytes, kind, .. } => bytes.len() / kind.bytes,
+        }
     }
 
     pub(crate) fn get(&self, index: usize) -> f64 {
-        self.0[index]
+        match self {
+            Self::Numbers(numbers) => numbers[index],
+            Self::Bytes { bytes, kind, big_endian } => {
+                let at = index * kind.bytes;
+                kind.value(&bytes[at..at + kind.bytes], *big_endian)
+            }
+        }
     }
 }
 
@@ -217,16 +234,15 @@ impl Array {
     /// The array's values.
     pub(crate) fn values(self, encoding: &Encoding, appended: &mut Appended) -> Result<Values, String> {
         let bytes = match self.content {
-            Content::Text(values) => return Ok(Values(values)),
-            Content::Base64(letters) if letters.is_empty() => return Ok(Values::default()),
+            Content::Text(values) => return Ok(Values::Numbers(values)),
+            Content::Base64(letters) if letters.is_empty() => return Ok(Values::Numbers(Vec::new())),
             Content::Base64(letters) => encoding.block(&from_base64(&letters, usize::MAX)?)?,
             Content::Appended(offset) => appended.block(offset, encoding)?,
         };
         if !bytes.len().is_multiple_of(self.kind.bytes) {
             return Err(format!("{} bytes are no whole number of values", bytes.len()));
         }
-        let values = bytes.chunks_exact(self.kind.bytes);
-        Ok(Values(values.map(|value| self.kind.value(value, encoding.big_endian)).collect()))
+        Ok(Values::Bytes { bytes, kind: self.kind, big_endian: encoding.big_endian })
     }
 }
 
@@ -240,7 +256,7 @@ pub(crate) struct Appended {
 
 impl Appended {
     pub(crate) fn new(bytes: Vec<u8>) -> Self {
-        let left = bytes.len().saturating_mul(8);
+        let left = bytes.len().saturating_mul(2);
         Self { bytes, left }
     }
 

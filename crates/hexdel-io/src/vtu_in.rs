@@ -107,8 +107,8 @@ impl Grid {
     /// Reads all tags; the appended data are returned.
     fn tags<R: BufRead>(&mut self, mut reader: Reader<Counting<R>>) -> Result<Vec<u8>, ReadError> {
         let mut buffer = Vec::new();
-        // The array whose text is awaited.
-        let mut awaited: Option<(Want, Array)> = None;
+        // The array whose text is awaited, and how many tags are around that text.
+        let mut awaited: Option<(Want, Array, usize)> = None;
         loop {
             buffer.clear();
             let event = reader.read_event_into(&mut buffer).map_err(|error| match error {
@@ -122,23 +122,29 @@ impl Grid {
                     return self.appended(&tag, reader.into_inner());
                 }
                 Event::Start(tag) => {
-                    awaited = self.open(&tag)?;
+                    // Within an array stand notes about it at most.
+                    if awaited.is_none() {
+                        awaited = self.open(&tag)?.map(|(want, array)| (want, array, self.place.len() + 1));
+                    }
                     self.place.push(tag.name().as_ref().to_owned());
                 }
-                Event::Empty(tag) => {
-                    if let Some(array) = self.open(&tag)? {
-                        self.keep(array)?;
+                Event::Empty(tag) if awaited.is_none() => {
+                    if let Some((want, array)) = self.open(&tag)? {
+                        self.keep(want, array)?;
                     }
                 }
                 Event::Text(text) => {
-                    if let Some((_, array)) = &mut awaited {
+                    if let Some((_, array, depth)) = &mut awaited
+                        && *depth == self.place.len()
+                    {
                         array.text(text.as_bytes()).map_err(|fault| self.fault(fault))?;
                     }
                 }
                 Event::End(_) => {
+                    let depth = self.place.len();
                     self.place.pop();
-                    if let Some(array) = awaited.take() {
-                        self.keep(array)?;
+                    if let Some((want, array, _)) = awaited.take_if(|(.., of_array)| *of_array == depth) {
+                        self.keep(want, array)?;
                     }
                 }
                 Event::Eof => return self.end(),
@@ -206,12 +212,16 @@ impl Grid {
         })
     }
 
-    fn keep(&mut self, array: (Want, Array)) -> Result<(), ReadError> {
-        match self.pieces.last_mut() {
-            Some(piece) => piece.arrays.push(array),
-            None => return Err(self.fault("an array outside of a Piece".to_owned())),
-        }
-        Ok(())
+    fn keep(&mut self, want: Want, array: Array) -> Result<(), ReadError> {
+        let fault = match self.pieces.last_mut() {
+            Some(piece) if piece.arrays.iter().all(|(w, _)| *w != want) => {
+                piece.arrays.push((want, array));
+                return Ok(());
+            }
+            Some(_) => "an array that the Piece has already",
+            None => "an array outside of a Piece",
+        };
+        Err(self.fault(fault.to_owned()))
     }
 
     fn attribute(&self, tag: &BytesStart<'_>, name: &str) -> Result<Option<String>, ReadError> {

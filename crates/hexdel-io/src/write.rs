@@ -1,6 +1,5 @@
 //! Writing files: which writer for which format, all or nothing.
 
-use std::ffi::OsStr;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -94,13 +93,12 @@ pub fn write_points(path: impl AsRef<Path>, pslg: &Pslg) -> Result<(), WriteErro
         return Err(WriteError::UnknownExtension { file: name, known: PointFormat::EXTENSIONS });
     };
     check_points(format, pslg, &name)?;
-    let delimiter = delimiter(path.extension());
     let mut draft = Draft::create(path)?;
-    draft.write(|out| write_graph(out, format, delimiter, pslg))?;
+    draft.write(|out| write_graph(out, format, pslg))?;
     draft.publish()
 }
 
-/// Writes points to a stream, `name` being what errors call it. A table has commas.
+/// Writes points to a stream, `name` being what errors call it.
 ///
 /// # Errors
 ///
@@ -114,7 +112,7 @@ pub fn write_points(path: impl AsRef<Path>, pslg: &Pslg) -> Result<(), WriteErro
 ///
 /// let pslg = Pslg::from_points(vec![DVec2::new(0.5, 1.0)]);
 /// let mut csv = Vec::new();
-/// write_points_to(&mut csv, PointFormat::Table, &pslg, "stream")?;
+/// write_points_to(&mut csv, PointFormat::Csv, &pslg, "stream")?;
 /// assert_eq!(csv, b"x,y\n0.5,1.0\n");
 /// # Ok::<(), hexdel_io::WriteError>(())
 /// ```
@@ -125,19 +123,16 @@ pub fn write_points_to(
     name: &str,
 ) -> Result<(), WriteError> {
     check_points(format, pslg, name)?;
-    write_graph(out, format, Some(","), pslg).map_err(WriteError::io(name))
+    write_graph(out, format, pslg).map_err(WriteError::io(name))
 }
 
-fn write_graph(
-    out: &mut dyn Write,
-    format: PointFormat,
-    delimiter: Option<&str>,
-    pslg: &Pslg,
-) -> io::Result<()> {
+fn write_graph(out: &mut dyn Write, format: PointFormat, pslg: &Pslg) -> io::Result<()> {
     match format {
         PointFormat::Node => triangle_out::write_points(out, pslg),
         PointFormat::Poly => triangle_out::write_poly(out, pslg),
-        PointFormat::Table => write_table(out, delimiter, &pslg.points),
+        PointFormat::Table => write_table(out, None, &pslg.points),
+        PointFormat::Csv => write_table(out, Some(","), &pslg.points),
+        PointFormat::Tsv => write_table(out, Some("\t"), &pslg.points),
         PointFormat::Json => graph_json::write_graph(out, pslg),
         PointFormat::Ron => graph_ron::write_graph_ron(out, pslg),
         // Refused by `check_points`.
@@ -225,16 +220,7 @@ fn check_finite(
     }
 }
 
-/// The delimiter of a table with that extension; `None` is a space and no header.
-fn delimiter(extension: Option<&OsStr>) -> Option<&'static str> {
-    let is = |name: &str| extension.is_some_and(|e| e.eq_ignore_ascii_case(name));
-    match (is("csv"), is("tsv")) {
-        (true, _) => Some(","),
-        (_, true) => Some("\t"),
-        _ => None,
-    }
-}
-
+/// Writes a table: with a header, or with spaces if there is no delimiter.
 fn write_table(out: &mut dyn Write, delimiter: Option<&str>, points: &[DVec2]) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     if let Some(delimiter) = delimiter {

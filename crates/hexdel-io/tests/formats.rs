@@ -247,3 +247,17 @@ fn edges_and_neighbours() {
     assert_eq!(poly.segments.len(), 9);
     assert!(poly.segment_markers.iter().all(|&m| m == 1));
 }
+
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    for (format, name, _) in MESHES {
+        let data = sample(true);
+        let mut bytes = b"\xef\xbb\xbf".to_vec();
+        // The coordinates of a .node are in a stream of their own.
+        if format != MeshFormat::NodeEle {
+            write_mesh_to(&mut bytes, format, &data.view(), "stream").unwrap();
+            let found = read_mesh_from(&bytes[..], format, "stream").unwrap();
+            assert_eq!(found.mesh, data.mesh, "{name}");
+        }
+    }
+}

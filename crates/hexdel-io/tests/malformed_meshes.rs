@@ -116,12 +116,20 @@ fn vtu_of_all_sorts() {
         ((">3<", ">-1<"), "f:11: cell 0 ends at -1 of 3 corners"),
         ((">3<", "><"), "f:11: 0 offsets instead of 1"),
         ((">5<", ">9<"), "f:11: a cell of type 9 with 3 corners cannot be read"),
+        (
+            ("</Cells>", "<DataArray type=\"Int32\" Name=\"offsets\">3</DataArray></Cells>"),
+            "f:10: an array that the Piece has already",
+        ),
         (("</Cells></Piece>", "</Piece>"), "f:10: ill-formed document"),
         (("</VTKFile>\n", ""), "f:10: the file ends within a tag"),
     ] {
         let found = error(MeshFormat::Vtu, &vtu(&[exchange])).to_string();
         assert!(found.starts_with(message), "{found}\n{message}");
     }
+    let noted =
+        "1 0 <InformationKey name=\"RANGE\"><Value index=\"0\">7</Value></InformationKey><Note/></DataArray>";
+    let noted = vtu(&[("1 0</DataArray>", noted)]);
+    assert_eq!(read_mesh_from(noted.as_bytes(), MeshFormat::Vtu, "f").unwrap().mesh.vertices.len(), 3);
     for text in ["", "no XML", "<a/>", "<VTKFile type=\"UnstructuredGrid\"/>"] {
         let found = read_mesh_from(text.as_bytes(), MeshFormat::Vtu, "f");
         assert_eq!(found.is_ok(), text.starts_with("<VTK"), "{text}");

@@ -14,8 +14,8 @@ use std::path::Path;
 
 use hexdel_geom::{DVec2, Pslg, Region, TriMesh, VertexId};
 use hexdel_io::{
-    MarkedEdge, MeshData, MeshFormat, PointFormat, ReadError, holds_mesh, read_mesh_from, read_mesh_pair,
-    read_points_from, write_mesh_to, write_points_to,
+    MarkedEdge, MeshData, MeshFormat, PointFormat, ReadError, holds_mesh, parse_raster, parse_sizes,
+    read_mesh_from, read_mesh_pair, read_points_from, write_mesh_to, write_points_to,
 };
 
 /// Damaged files per format in a test run: a few seconds in all.
@@ -91,7 +91,7 @@ fn pointed(format: &str) -> Vec<u8> {
         regions: Vec::new(),
         ..graph()
     };
-    let graph = if matches!(format, PointFormat::Node | PointFormat::Table) { plain } else { graph() };
+    let graph = if matches!(format, PointFormat::Node | PointFormat::Csv) { plain } else { graph() };
     write_points_to(&mut out, format, &graph, "s").unwrap();
     out
 }
@@ -129,6 +129,9 @@ const MSH: &str = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\na $b\n$EndCo
 2 2 1 2\n4\n5\n1 0 0 0.5 0.5\n0 1 0 0.5 0.5\n$EndNodes\n$Elements\n3 3 1 3\n0 1 15 1\n1 9\n1 1 1 1\n2 9 4\n2 2 2 1\n\
 3 9 4 5\n$EndElements\n";
 
+const RASTER: &str =
+    "ncols 3\nnrows 2\nxllcorner 10\nyllcenter -1\ncellsize 4.5\nNODATA_value -9999\n1 2 3\n4 nan -9999\n";
+
 fn targets() -> Vec<Target> {
     let text = |text: &str| text.as_bytes().to_vec();
     let target = |name, samples| Target { name, samples };
@@ -148,6 +151,8 @@ fn targets() -> Vec<Target> {
         target("obj", vec![meshed("obj"), text(OBJ)]),
         target("off", vec![meshed("off"), text("COFF\n3 1 3\n0 0 0 1 1 1 1\n1 0 0\n0 1 0\n3 0 1 2 0.5\n")]),
         target("mesh", vec![meshed("mesh")]),
+        target("asc", vec![text(RASTER)]),
+        target("sizes", vec![text("# x y size\n1 2 0.5\n3,4;1e-3\n")]),
         target("ele", vec![text("3 3 1\n0 0 1 2 1.5\n1 1 2 3 0\n2 0 3 1 -2\n")]),
     ]);
     rest
@@ -160,6 +165,16 @@ fn read(name: &str, bytes: &[u8]) {
         judge(read_mesh_pair((nodes, "n"), (bytes, "e")));
         judge(read_mesh_pair((bytes, "n"), (&b"1\n0 0 1 2\n"[..], "e")));
         return;
+    }
+    let items = match name {
+        "asc" => Some(parse_raster(bytes, "f").map(|raster| raster.values.len())),
+        "sizes" => Some(parse_sizes(bytes, "f").map(|sizes| sizes.len())),
+        _ => None,
+    };
+    match items {
+        Some(Ok(items)) => bounded(items, bytes),
+        Some(Err(error)) => assert_plausible(&error, bytes),
+        None => {}
     }
     if let Some(format) = MeshFormat::from_name(name).filter(|format| format.is_read()) {
         if name != "node" {

@@ -3,7 +3,7 @@
 //!
 //! `compact_bench [start] [effort] [min] [input..]` where start is `templates`,
 //! `separate`, `apart` or `among`, effort `fast`, `standard` or `best`, and an input a number of uniform
-//! points or one of `line two grid circle cluster pairs`.
+//! points or one of `line two grid circle cluster pairs`, each with `xN` behind for seeds 1 to N.
 
 #![allow(clippy::print_stdout, reason = "a program that prints")]
 
@@ -45,37 +45,63 @@ fn main() {
     }
 }
 
-fn input(name: &str) -> Vec<DVec2> {
+fn input(name: &str, seed: u64) -> Vec<DVec2> {
     match name {
-        "line" => points::line(100, 1),
+        "line" => points::line(100, seed),
         "two" => points::two_close(),
         "grid" => points::grid(10),
         "circle" => points::circle(100),
-        "cluster" => points::clusters(1000, 1),
-        "pairs" => points::pairs(50, 1e-4, 1),
-        n => points::uniform(n.parse().expect("a count"), 1),
+        "cluster" => points::clusters(1000, seed),
+        "pairs" => points::pairs(50, 1e-4, seed),
+        n => points::uniform(n.parse().expect("a count"), seed),
     }
 }
 
-fn run(name: &str, rule: Rule, options: &Options) {
-    let points = input(name);
+/// All seeds of an input.
+fn run(input: &str, rule: Rule, options: &Options) {
+    let (name, seeds) = input.split_once('x').map_or((input, 1), |(n, s)| (n, s.parse().expect("a count")));
+    let runs: Vec<Run> = (1..=seeds).filter_map(|seed| one(name, seed, rule, options)).collect();
+    if runs.len() < 2 {
+        return;
+    }
+    let mean = |f: fn(&Run) -> f64| runs.iter().map(f).sum::<f64>() / runs.len() as f64;
+    let of = |pick: fn(f64, f64) -> f64| runs.iter().map(|r| r.triangles).reduce(pick).unwrap_or_default();
+    let (least, most) = (of(f64::min), of(f64::max));
+    println!(
+        "{input}: mean {:.3} ({least:.3} to {most:.3}) triangles/pt, {:.4} ms/pt",
+        mean(|r| r.triangles),
+        mean(|r| r.ms)
+    );
+}
+
+/// What one run took, per point.
+struct Run {
+    triangles: f64,
+    ms: f64,
+}
+
+fn one(name: &str, seed: u64, rule: Rule, options: &Options) -> Option<Run> {
+    let points = input(name, seed);
     let start = start(&points, rule);
     let n = points.len() as f64;
     let before = start.mesh.triangles.len() as f64 / n;
     let cpu = cpu_seconds();
-    let ms = || (cpu_seconds() - cpu) * 1e3 / n;
     let wall = Instant::now();
     let rounds_ms = Rounds::default();
     let (result, bad) = match optimize(start.mesh, &start.kinds, options, &rounds_ms) {
         Ok(result) => (result, 0),
         Err(OptimizeError::Unreached { best, bad, .. }) => (*best, bad),
-        Err(error) => return println!("{name}: {error}"),
+        Err(error) => {
+            println!("{name} seed {seed}: {error}");
+            return None;
+        }
     };
+    let run = Run { triangles: result.mesh.triangles.len() as f64 / n, ms: (cpu_seconds() - cpu) * 1e3 / n };
     let Stats { rounds, repairs, removals, shakes, steps, .. } = result.stats;
     println!(
-        "{name}: {before:.2}, {:.3}, {:.4}, {rounds}; {}/{} {}/{} {}/{}; {steps}; wall {:.2} s, {bad} bad",
-        result.mesh.triangles.len() as f64 / n,
-        ms(),
+        "{name} seed {seed}: {before:.2}, {:.3}, {:.4}, {rounds}; {}/{} {}/{} {}/{}; {steps}; wall {:.2} s, {bad} bad",
+        run.triangles,
+        run.ms,
         repairs[1],
         repairs[0],
         removals[1],
@@ -87,6 +113,7 @@ fn run(name: &str, rule: Rule, options: &Options) {
     let seen = rounds_ms.0.into_inner().expect("no panic");
     let each: Vec<String> = seen.windows(2).map(|w| format!("{:.3}", (w[1].1 - w[0].1) * 1e3 / n)).collect();
     println!("  CPU ms/pt of each round: {}", each.join(" "));
+    Some(run)
 }
 
 /// Prints the CPU time at which each round begins.

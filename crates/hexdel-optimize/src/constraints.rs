@@ -5,6 +5,7 @@ use hexdel_geom::{AngleBounds, DVec2, VertexId, point_on_segment};
 
 use crate::angles::{Limits, Measure, Place};
 use crate::mesh::Mesh;
+use crate::refill::tightness;
 
 /// The largest area of a triangle by the place of its centroid.
 pub type AreaLimit<'a> = &'a (dyn Fn(DVec2) -> f64 + Sync);
@@ -81,6 +82,11 @@ pub(crate) fn in_wedge(lines: &[Line], sources: [u32; 3], corners: [DVec2; 3]) -
     wedges.iter().any(|&second| (0..3).all(|i| on(i, first) || on(i, second)))
 }
 
+/// Last places of the largest coordinate that a point on a segment may be away
+/// from it: rounding each coordinate takes it by `1 / sqrt 2`, measuring that by
+/// two more.
+const LAST_PLACES: f64 = 3.0;
+
 /// A segment that vertices slide along.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
@@ -96,6 +102,16 @@ impl Line {
         Self { ends, along: (ends[1] - ends[0]).normalize_or_zero(), wedges: Vec::new() }
     }
 
+    /// Whether `p` lies between the ends, up to rounding.
+    pub(crate) fn holds(&self, p: DVec2) -> bool {
+        let [a, b] = self.ends;
+        let largest = a.abs().max(b.abs()).max(p.abs()).max_element();
+        let last_place = largest.next_up() - largest;
+        let [from, to] = [p - a, b - p].map(|side| side.dot(self.along));
+        let off = (p - a).perp_dot(self.along).abs().min((p - b).perp_dot(self.along).abs());
+        from > 0.0 && to > 0.0 && off <= LAST_PLACES * last_place && p != a && p != b
+    }
+
     /// The rounded point of the segment nearest to `p`.
     pub(crate) fn nearest(&self, p: DVec2) -> DVec2 {
         let [a, b] = self.ends;
@@ -104,11 +120,24 @@ impl Line {
     }
 }
 
+/// The segment that an edge is part of: that of an end between the segment's
+/// own, or the one whose ends are the edge's. `sources` as of [`in_wedge`].
+pub(crate) fn line_between(lines: &[Line], sources: [u32; 2], ends: [DVec2; 2]) -> Option<u32> {
+    let between = sources.into_iter().find(|&s| s < POINT);
+    let whole = || {
+        let same = |l: &Line| l.ends == ends || l.ends == [ends[1], ends[0]];
+        lines.iter().position(same).map(|i| i as u32)
+    };
+    between.or_else(whole)
+}
+
 /// Bounds by place, and limits on areas.
 #[derive(Clone)]
 pub(crate) struct Rules<'a> {
     far: Limits,
     near: Limits,
+    /// How much tighter `far` is than usual.
+    tightness: f64,
     max_area: Option<AreaLimit<'a>>,
     hopeless: Option<Hopeless<'a>>,
 }
@@ -121,10 +150,12 @@ impl std::fmt::Debug for Rules<'_> {
 
 impl<'a> Rules<'a> {
     pub(crate) fn new(bounds: AngleBounds, constraints: Option<&Constraints<'a>>) -> Self {
+        let far = Limits::new(bounds);
         Self {
-            far: Limits::new(bounds),
+            far,
+            tightness: tightness(&far),
             near: match constraints {
-                None => Limits::new(bounds),
+                None => far,
                 Some(c) if c.strict => Limits::new(c.near).without_tolerance(),
                 Some(c) => Limits::new(c.near),
             },
@@ -137,6 +168,12 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(crate) fn limits(&self, place: Place) -> &Limits {
         if place.is_near() { &self.near } else { &self.far }
+    }
+
+    /// As [`tightness`] says of the bounds away from segments.
+    #[inline]
+    pub(crate) fn tightness(&self) -> f64 {
+        self.tightness
     }
 
     /// The bounds of most triangles at a vertex.

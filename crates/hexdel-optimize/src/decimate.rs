@@ -17,44 +17,76 @@ pub(crate) struct Pass {
     pub(crate) rings: u8,
     /// Refills tried for each vertex.
     pub(crate) refills: usize,
-    /// Refills that cost more are not tried.
+    /// Refills that cost more, times [`tightness`](crate::refill::tightness), are
+    /// not tried.
     pub(crate) max_cost: f64,
     /// Energy below which Newton steps finish a patch, square radians.
     pub(crate) near: f64,
+    /// When to give up.
+    pub(crate) patience: Patience,
 }
 
-/// Energy after a ring has moved above which more rings seldom help, square
-/// radians; measured: 0.3 gives up 2 % of the removals and saves a sixth of the
-/// time that 1.0 takes.
-const HOPELESS: f64 = 0.3;
+/// Energies above which an attempt seldom succeeds, by the rings that move; more
+/// rings than entries have the last.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patience {
+    /// Found by a sweep but the first.
+    sweeps: [f64; 4],
+    /// Left after motion, square radians.
+    left: [f64; 4],
+}
+
+impl Patience {
+    fn sweeps(&self, rings: u8) -> f64 {
+        self.sweeps[usize::from(rings.min(4)) - 1]
+    }
+
+    fn left(&self, rings: u8) -> f64 {
+        self.left[usize::from(rings.min(4)) - 1]
+    }
+}
+
+/// While most attempts succeed. An energy of 0.3 gives up 2 % of the removals and
+/// saves a sixth of the time that 1.0 takes.
+pub(crate) const PATIENT: Patience = Patience { sweeps: [f64::INFINITY; 4], left: [0.3; 4] };
+
+/// When few succeed: of the attempts that are given up here one of thirty would
+/// have.
+pub(crate) const LATE: Patience = Patience { sweeps: [1.0, 0.4, 0.15, 0.05], left: [0.3, 0.1, 0.03, 0.03] };
 
 /// The first pass has so many likely removals that flips do not pay.
-const FIRST: Effort = Effort { sweeps: Sweeps { most: 30, stall: 0.4 }, turns: 1, near: 0.0, steps: 0 };
+const FIRST: Effort =
+    Effort { sweeps: Sweeps { most: 30, stall: 0.4, hope: f64::INFINITY }, turns: 1, near: 0.0, steps: 0 };
 
-const REMOVAL: Effort = Effort { sweeps: Sweeps { most: 30, stall: 0.6 }, turns: 3, near: 0.0, steps: 6 };
+const REMOVAL: Effort =
+    Effort { sweeps: Sweeps { most: 30, stall: 0.6, hope: f64::INFINITY }, turns: 3, near: 0.0, steps: 6 };
 
 /// The passes, each given a new partition of the mesh: cheap and likely
 /// removals first. With the costs of `refill`, four of five attempts at 0.5
 /// succeed while the mesh is fine; on a coarse one, one of ten. One ring is
 /// enough for half of the removals from a fine start.
 pub(crate) const PASSES: [Pass; 13] = [
-    pass(1, 1, 0.5, 0.0),
-    pass(2, 1, 0.5, 0.0),
-    pass(2, 1, 0.5, 0.0),
-    pass(2, 1, 0.5, 0.0),
-    pass(2, 1, 0.6, 0.01),
-    pass(3, 1, 0.5, 0.01),
-    pass(3, 2, 0.6, 0.01),
-    pass(4, 2, 0.6, 0.01),
-    pass(4, 2, 0.6, 0.01),
-    pass(4, 3, 0.7, 0.01),
-    pass(5, 2, 0.6, 0.01),
-    pass(5, 3, 0.7, 0.01),
-    pass(5, 3, 0.7, 0.01),
+    early(1, 0.5, 0.0),
+    early(2, 0.5, 0.0),
+    early(2, 0.5, 0.0),
+    early(2, 0.5, 0.0),
+    early(2, 0.6, 0.01),
+    late(3, 2, 0.6),
+    late(4, 4, 0.8),
+    late(5, 4, 0.8),
+    late(5, 4, 0.8),
+    late(5, 4, 0.8),
+    late(5, 4, 0.8),
+    late(5, 4, 0.8),
+    late(5, 4, 0.8),
 ];
 
-const fn pass(rings: u8, refills: usize, max_cost: f64, near: f64) -> Pass {
-    Pass { rings, refills, max_cost, near }
+const fn early(rings: u8, max_cost: f64, near: f64) -> Pass {
+    Pass { rings, refills: 1, max_cost, near, patience: PATIENT }
+}
+
+const fn late(rings: u8, refills: usize, max_cost: f64) -> Pass {
+    Pass { rings, refills, max_cost, near: 0.01, patience: LATE }
 }
 
 /// Tries every vertex once; returns how many were removed.
@@ -99,7 +131,8 @@ fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
     {
         work.refills.choose(&work.mesh, work.rules, (&s.tris, &s.ring), closed, pass.refills, &mut s.chosen);
         for &(cost, index) in &s.chosen {
-            if cost > pass.max_cost || !work.refills.triangles(&work.mesh, &s.ring, closed, index, &mut s.new)
+            if cost > pass.max_cost * work.rules.tightness()
+                || !work.refills.triangles(&work.mesh, &s.ring, closed, index, &mut s.new)
             {
                 continue;
             }
@@ -119,6 +152,33 @@ fn remove(work: &mut Work, v: u32, pass: Pass) -> bool {
     done
 }
 
+/// Takes `v` out by the refill of least cost, whatever becomes of the angles; false
+/// where the topology forbids all.
+pub(crate) fn drop_vertex(work: &mut Work, v: u32) -> bool {
+    if let Some(hole) = SegmentHole::of(&work.mesh, v) {
+        let Some(refill) = hole.refill(&work.mesh, work.rules, work.refills) else { return false };
+        hole.fill(&mut work.mesh, &refill);
+        work.mesh.commit();
+        return true;
+    }
+    let s = &mut work.scratch;
+    let closed = work.mesh.ring(v, &mut s.tris, &mut s.ring);
+    let slides = matches!(work.mesh.motion[v as usize], Motion::Along(_));
+    if !(3..=MAX_CORNERS).contains(&s.ring.len()) || closed == slides {
+        return false;
+    }
+    work.refills.choose(&work.mesh, work.rules, (&s.tris, &s.ring), closed, 1, &mut s.chosen);
+    let refilled = s
+        .chosen
+        .first()
+        .is_some_and(|&(_, index)| work.refills.triangles(&work.mesh, &s.ring, closed, index, &mut s.new));
+    if refilled {
+        work.mesh.replace(&s.tris, &s.new, &mut Vec::new());
+        work.mesh.commit();
+    }
+    refilled
+}
+
 /// Moves ever more rings around `verts` until everything changed holds.
 pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
     work.load(verts);
@@ -127,11 +187,12 @@ pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
         if ring > 1 {
             work.grow();
         }
-        let state = work.solve(effort);
+        let sweeps = Sweeps { hope: pass.patience.sweeps(ring), ..effort.sweeps };
+        let state = work.solve(Effort { sweeps, ..effort });
         if state.solved {
             return work.changes_hold();
         }
-        if state.energy > HOPELESS {
+        if state.energy > pass.patience.left(ring) {
             return false;
         }
     }
@@ -142,7 +203,7 @@ pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
 fn remove_from_segment(work: &mut Work, v: u32, pass: Pass) -> bool {
     let Some(hole) = SegmentHole::of(&work.mesh, v) else { return false };
     let Some(refill) = hole.refill(&work.mesh, work.rules, work.refills) else { return false };
-    if refill.cost > pass.max_cost {
+    if refill.cost > pass.max_cost * work.rules.tightness() {
         return false;
     }
     hole.fill(&mut work.mesh, &refill);

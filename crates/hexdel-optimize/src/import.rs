@@ -205,7 +205,9 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
             match (closed, soup.motion[v as usize]) {
                 (true, Motion::Free) if stay.is_empty() => Ok(std::f64::consts::TAU),
                 (true, Motion::Fixed) => Ok(std::f64::consts::TAU),
-                (_, Motion::On(line)) if goes_on(&soup.lines[line as usize], soup, v, &stay) => {
+                (_, Motion::On(line))
+                    if soup.lines.get(line as usize).is_some_and(|line| goes_on(line, soup, v, &stay)) =>
+                {
                     Ok(if closed { std::f64::consts::TAU } else { std::f64::consts::PI })
                 }
                 (false, Motion::Fixed) => Ok(opening(first, last)),

@@ -146,7 +146,7 @@ fn halve(items: &mut [(DVec2, u32)], at: usize, parts: &mut Vec<Vec<u32>>) {
 /// What the parts need to know of the whole.
 pub(crate) struct Seams {
     /// Triangles at each vertex of the soup.
-    degree: Vec<u16>,
+    degree: Vec<u32>,
     /// Whether each vertex of the soup is in more than one part.
     shared: Vec<bool>,
     /// As [`Soup::near`] says.
@@ -160,7 +160,7 @@ pub(crate) struct Seams {
 
 impl Seams {
     pub(crate) fn new(soup: &Soup, cuts: &Cuts) -> Self {
-        let mut degree = vec![0u16; soup.pos.len()];
+        let mut degree = vec![0u32; soup.pos.len()];
         let mut owner = vec![NONE; soup.pos.len()];
         let mut shared = vec![false; soup.pos.len()];
         for (p, part) in cuts.parts.iter().chain([&cuts.rest]).enumerate() {
@@ -198,7 +198,7 @@ pub(crate) fn extract(soup: &Soup, seams: &Seams, cuts: &Cuts, index: usize) -> 
     };
     let global: Vec<u32> = own.iter().chain(&seam).copied().collect();
     let tris: Vec<[u32; 3]> = triangles.iter().map(|&t| soup.tris[t as usize].map(local)).collect();
-    let mut outside: Vec<u16> = global.iter().map(|&v| seams.degree[v as usize]).collect();
+    let mut outside: Vec<u32> = global.iter().map(|&v| seams.degree[v as usize]).collect();
     for &v in tris.iter().flatten() {
         outside[v as usize] -= 1;
     }

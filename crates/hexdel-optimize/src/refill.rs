@@ -6,6 +6,8 @@
 //! sector of angle `a` need `min <= a / n <= max`, and the nearer `a / n` is
 //! to either bound, the less room is left for the neighbours.
 
+use hexdel_geom::AngleBounds;
+
 use crate::angles::{Limits, Measure};
 use crate::constraints::Rules;
 use crate::mesh::Mesh;
@@ -51,23 +53,25 @@ impl Refills {
         out.clear();
         let n = ring.len();
         let shape = shapes(mesh, rules.limits(mesh.place(tris[0])), ring);
-        let corners: [Option<Corner<'_>>; MAX_CORNERS] = std::array::from_fn(|i| {
-            let corner = Corner::of(mesh, rules, *ring.get(i)?, tris[i.min(tris.len() - 1)])?;
+        let costs: [[f64; MAX_CORNERS - 1]; MAX_CORNERS] = std::array::from_fn(|i| {
+            let of = |v: u32| Corner::of(mesh, rules, v, tris[i.min(tris.len() - 1)]);
+            let Some(corner) = ring.get(i).and_then(|&v| of(v)) else { return [0.0; MAX_CORNERS - 1] };
             let end = !closed && (i == 0 || i == n - 1);
-            Some(Corner { degree: corner.degree - if end { 1 } else { 2 }, ..corner })
+            let left = corner.degree - if end { 1 } else { 2 };
+            std::array::from_fn(|more| if more + 2 < n { corner.cost(left + more + 1) } else { 0.0 })
         });
         for (index, tris) in self.of[n].iter().enumerate() {
-            let mut added = [0; MAX_CORNERS];
+            let mut added = [0usize; MAX_CORNERS];
             let mut cost = 0.0;
             for t in tris {
                 for &c in t {
                     added[usize::from(c)] += 1;
                 }
-                cost += shape[usize::from(t[0])][usize::from(t[1])][usize::from(t[2])];
+                cost += shape[rank(t.map(usize::from))];
             }
             cost *= SHAPE_WEIGHT;
-            for (corner, added) in corners.iter().zip(added) {
-                cost += corner.as_ref().map_or(0.0, |c| c.cost(c.degree + added));
+            for (costs, added) in costs.iter().zip(&added[..n]) {
+                cost += costs[added - 1];
             }
             if cost < IMPOSSIBLE {
                 out.push((cost, index));
@@ -129,18 +133,28 @@ fn fans(a: usize, b: usize) -> Vec<Vec<[u8; 3]>> {
     all
 }
 
-#[allow(clippy::needless_range_loop, reason = "the three indices are one key")]
-fn shapes(mesh: &Mesh, limits: &Limits, ring: &[u32]) -> [[[f64; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS] {
-    let mut shape = [[[0.0; MAX_CORNERS]; MAX_CORNERS]; MAX_CORNERS];
+/// What the triangle of each three corners of the ring is outside, by [`rank`].
+fn shapes(mesh: &Mesh, limits: &Limits, ring: &[u32]) -> [f64; TRIPLES] {
+    let mut shape = [0.0; TRIPLES];
     let p = |i: usize| mesh.pos[ring[i] as usize];
-    for i in 0..ring.len() {
-        for j in i + 1..ring.len() {
-            for k in j + 1..ring.len() {
-                shape[i][j][k] = limits.energy(&Measure::of(p(i), p(j), p(k)));
+    for k in 2..ring.len() {
+        for j in 1..k {
+            for i in 0..j {
+                shape[rank([i, j, k])] = limits.energy(&Measure::of(p(i), p(j), p(k)));
             }
         }
     }
     shape
+}
+
+/// How many three corners of a hole there are.
+const TRIPLES: usize = MAX_CORNERS * (MAX_CORNERS - 1) * (MAX_CORNERS - 2) / 6;
+
+/// The place of three ascending numbers among all, in the order of the last, then
+/// the second, then the first.
+#[inline]
+fn rank([i, j, k]: [usize; 3]) -> usize {
+    k * (k - 1) * (k - 2) / 6 + j * (j - 1) / 2 + i
 }
 
 /// A corner of a hole or triangle, between the segments or sides that enclose
@@ -184,4 +198,12 @@ pub(crate) fn degree_cost(limits: &Limits, sector: f64, degree: usize) -> f64 {
     // A sector's angle carries the rounding of an arc cosine.
     let room = (mean - limits.min_rad).min(limits.max_rad - mean) + 1e-9;
     if room < 0.0 { IMPOSSIBLE } else { 1.0 / (room.to_degrees() + 1.0) }
+}
+
+/// How many times what it costs at [`AngleBounds::EXTENDED`] five, six and seven
+/// triangles cost at a vertex; no less than 1, as nothing is gained by trying less at
+/// wider bounds, and no more than 3.
+pub(crate) fn tightness(limits: &Limits) -> f64 {
+    let usual = |l: &Limits| (5..=7).map(|degree| degree_cost(l, std::f64::consts::TAU, degree)).sum::<f64>();
+    (usual(limits) / usual(&Limits::new(AngleBounds::EXTENDED))).clamp(1.0, 3.0)
 }

@@ -6,7 +6,7 @@
 //! but not wander.
 
 use crate::change::{Action, Finder, apply};
-use crate::decimate::{Pass, try_remove};
+use crate::decimate::{PATIENT, Pass, try_remove};
 use crate::mesh::{Mesh, Motion};
 use crate::patch::{State, Sweeps};
 use crate::work::{Effort, Work};
@@ -54,11 +54,14 @@ const KEEP_BELOW: f64 = 0.9;
 /// corners some degrees outside, which motion and search can settle.
 const TOLERATED: f64 = 0.1;
 
-const MOVE: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.7 }, turns: 2, near: 0.3, steps: 4 };
-const SCREEN: Effort = Effort { sweeps: Sweeps { most: 16, stall: 0.7 }, turns: 2, near: 1.0, steps: 2 };
-const FINISH: Effort = Effort { sweeps: Sweeps { most: 40, stall: 0.8 }, turns: 3, near: 0.3, steps: 8 };
+const MOVE: Effort =
+    Effort { sweeps: Sweeps { most: 40, stall: 0.7, hope: f64::INFINITY }, turns: 2, near: 0.3, steps: 4 };
+const SCREEN: Effort =
+    Effort { sweeps: Sweeps { most: 16, stall: 0.7, hope: f64::INFINITY }, turns: 2, near: 1.0, steps: 2 };
+const FINISH: Effort =
+    Effort { sweeps: Sweeps { most: 40, stall: 0.8, hope: f64::INFINITY }, turns: 3, near: 0.3, steps: 8 };
 
-const THIN: Pass = Pass { rings: 3, refills: 2, max_cost: 0.8, near: 0.05 };
+const THIN: Pass = Pass { rings: 3, refills: 2, max_cost: 0.8, near: 0.05, patience: PATIENT };
 
 /// Changes that are worked out after screening.
 const FINALISTS: usize = 4;

@@ -4,7 +4,7 @@ use crate::constraints::Rules;
 use crate::flip::{flip_patch, wants_flip};
 use crate::mesh::{Mesh, Motion};
 use crate::options::Stats;
-use crate::patch::{Patch, State, Sweeps};
+use crate::patch::{Patch, State, Sweeps, Swept};
 use crate::random::Random;
 use crate::refill::Refills;
 use crate::sizing::{Sizing, triangle_fits};
@@ -91,9 +91,10 @@ impl<'a> Work<'a> {
 
     /// Moves and flips the loaded patch in turn until it is solved, nothing
     /// flips, or the effort is spent. Motion comes first: flipping first would
-    /// undo the choice of degrees that made the patch promising.
+    /// undo the choice of degrees that made the patch promising. A hopeless patch is
+    /// left unfinished.
     pub(crate) fn solve(&mut self, effort: Effort) -> State {
-        let mut state = State { energy: f64::INFINITY, solved: false };
+        let mut state = State::HOPELESS;
         for turn in 0..effort.turns {
             if turn > 0 {
                 self.patch.store(&mut self.mesh);
@@ -102,8 +103,11 @@ impl<'a> Work<'a> {
                 }
                 self.reload();
             }
-            self.patch.project(self.rules, effort.sweeps);
-            state = self.patch.state(self.rules);
+            match self.patch.project(self.rules, effort.sweeps) {
+                Swept::Settled => state = State { energy: 0.0, solved: true },
+                Swept::Stalled => state = self.patch.state(self.rules),
+                Swept::Hopeless => return State::HOPELESS,
+            }
             if state.solved {
                 break;
             }

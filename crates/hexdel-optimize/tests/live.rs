@@ -20,6 +20,22 @@ fn check(live: &LiveMesh) {
 }
 
 #[test]
+fn what_was_fine_at_a_side_goes_too() {
+    let h = 0.5 * 3_f64.sqrt();
+    for distance in [1e-1, 1e-2, 1e-3, 1e-5] {
+        for x in [-0.3, 0.0, 0.21] {
+            let mut live = hexagon();
+            let slot = live.insert(DVec2::new(x, h - distance)).unwrap();
+            let fine = live.counts()[1];
+            live.release(slot).unwrap();
+            check(&live);
+            let left = live.counts()[1];
+            assert!(left <= 45, "{distance} at {x}: {fine} triangles with it, {left} without");
+        }
+    }
+}
+
+#[test]
 fn what_was_fine_for_one_vertex_goes_with_it() {
     let h = 0.5 * 3_f64.sqrt();
     for (p, most) in [((0.31, 0.22), 30), ((-0.1, -0.4), 30), ((0.2, h), 30)] {
@@ -27,7 +43,7 @@ fn what_was_fine_for_one_vertex_goes_with_it() {
         let slot = live.insert(p.into()).unwrap();
         check(&live);
         let fine = live.counts()[1];
-        live.release(slot);
+        live.release(slot).unwrap();
         check(&live);
         let left = live.counts()[1];
         assert!(left <= most, "{p:?}: {fine} triangles with it, {left} without");

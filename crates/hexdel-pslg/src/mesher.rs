@@ -150,7 +150,7 @@ impl<'a> Mesher<'a> {
         let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
         let area = |p: DVec2| areas.as_ref().map_or(f64::INFINITY, |areas| areas.at(p));
         let scene = with_fans(input, pieces, options.near, &area);
-        let sectors = narrow_sectors(&scene, options.near.min_deg());
+        let sectors = narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
         let wedges = wedges(&sectors, &scene.pieces);
         let reach = scene.sites.iter().map(|p| p.distance(circle.center)).fold(circle.radius, f64::max);
         Self {

@@ -14,7 +14,8 @@ use crate::validate::Validated;
 use hexdel_geom::delaunay::restore_constrained_delaunay;
 use hexdel_geom::monitor::{Monitor, check};
 use hexdel_geom::{
-    AngleBounds, CertifyOptions, DVec2, TriMesh, TriangleId, VertexId, certify, quality, settle_rounding,
+    AngleBounds, CertifyOptions, DVec2, Pslg, TriMesh, TriangleId, VertexId, certify, quality,
+    settle_rounding,
 };
 use rustc_hash::FxHashSet;
 
@@ -67,7 +68,7 @@ pub(crate) fn finish(
     }
     Ok(PslgMesh {
         certificate: certify(&mesh, &options),
-        vertex_markers: vertex_markers(parts, &edges, &point_of_vertex),
+        vertex_markers: vertex_markers(&parts.input.pslg, &edges, &point_of_vertex),
         region_of_triangle: regions(&net, parts.input, &numbers),
         mesh,
         vertex_of_point,
@@ -209,11 +210,14 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
         .collect()
 }
 
-fn vertex_markers(parts: &Parts<'_>, edges: &[SegmentEdge], point_of_vertex: &[Option<u32>]) -> Vec<i32> {
-    let given = &parts.input.pslg.point_markers;
+/// A marker of each vertex of a mesh of a graph, as of
+/// [`PslgMesh::vertex_markers`], given the mesh's edges on segments and the
+/// boundary and for each vertex the point that it is.
+pub fn vertex_markers(pslg: &Pslg, edges: &[SegmentEdge], point_of_vertex: &[Option<u32>]) -> Vec<i32> {
+    let given = &pslg.point_markers;
     let own = |p: &Option<u32>| p.and_then(|p| given.get(p as usize)).copied().unwrap_or(0);
     let mut markers: Vec<i32> = point_of_vertex.iter().map(own).collect();
-    let segment_markers = &parts.input.pslg.segment_markers;
+    let segment_markers = &pslg.segment_markers;
     let of_segment = |e: &SegmentEdge| e.segment.and_then(|s| segment_markers.get(s as usize)).copied();
     for (e, marker) in edges.iter().map(|e| (e, of_segment(e).unwrap_or(0))) {
         for v in e.ends {

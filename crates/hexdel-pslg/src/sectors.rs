@@ -1,6 +1,6 @@
 //! Corners of the input that are narrower than the bound.
 
-use crate::fans::{LEAST_DEG, NARROW_DEG, Scene};
+use crate::fans::{Fan, LEAST_DEG, NARROW_DEG, Scene};
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
 use crate::validate::{Piece, Validated};
@@ -26,6 +26,21 @@ impl Sector {
     pub(crate) fn is_hopeless(&self) -> bool {
         self.angle_deg < NARROW_DEG && !self.fanned
     }
+}
+
+/// Pairs of segments, given by their ends, that meet at so small an angle that no
+/// mesh could keep bounds between them. No two may cross.
+pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
+    let order = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+    let mut sites: Vec<DVec2> = segments.iter().flatten().copied().collect();
+    sites.sort_by(order);
+    sites.dedup();
+    let site = |p: &DVec2| sites.partition_point(|q| order(q, p).is_lt()) as u32;
+    let piece =
+        |(ends, segment): (&[DVec2; 2], u32)| Piece { ends: [site(&ends[0]), site(&ends[1])], segment };
+    let pieces: Vec<Piece> = segments.iter().zip(0..).map(piece).collect();
+    let sectors = narrow_sectors(&sites, &pieces, &[], NARROW_DEG);
+    wedge_pairs(&sectors).into_iter().map(|pair| pair.map(|p| p as usize)).collect()
 }
 
 /// A corner of a graph between two segments that meet at less than a bound.
@@ -69,7 +84,7 @@ pub fn narrow_corners(input: &Validated, least_deg: f64) -> Vec<NarrowCorner> {
             given_up: s.angle_deg < LEAST_DEG,
         }
     };
-    narrow_sectors(&scene, least_deg).iter().map(corner).collect()
+    narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, least_deg).iter().map(corner).collect()
 }
 
 /// The pieces on both sides of each sector that is given up.
@@ -83,8 +98,7 @@ pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
 }
 
 /// All sectors narrower than `least_deg`.
-pub(crate) fn narrow_sectors(scene: &Scene, least_deg: f64) -> Vec<Sector> {
-    let (sites, pieces, fans) = (&scene.sites, &scene.pieces, &scene.fans);
+pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Vec<Sector> {
     let mut rays: Vec<(u32, f64, u32)> = pieces
         .iter()
         .zip(0..)

@@ -24,9 +24,12 @@ use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Grid, Hex, TileId, Window};
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
-/// Merges what no finer level needs in the given tiles of a closed level.
-pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &RuleSet) {
+/// Merges what no finer level needs in the given tiles of a closed level. Returns
+/// the tiles that changed and what was subdivided in them before; a tile that
+/// changed several times comes as often, in order.
+pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &RuleSet) -> Vec<(TileId, u64)> {
     let mut colours: [Vec<TileId>; 9] = Default::default();
     for &id in tiles {
         let tile = grid.tiles().get(level, id);
@@ -34,13 +37,16 @@ pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &Rule
             colours[colour(tile.first())].push(id);
         }
     }
+    let mut changed = Vec::new();
     for tiles in colours {
         let merged: Vec<_> =
             tiles.into_par_iter().map(|id| Patch::of(grid, level, id).coarsened(rules)).collect();
         for (id, subdivided) in merged.into_iter().flatten() {
-            grid.tiles_mut().get_mut(level, id).subdivided = subdivided;
+            let tile = grid.tiles_mut().get_mut(level, id);
+            changed.push((id, std::mem::replace(&mut tile.subdivided, subdivided)));
         }
     }
+    changed
 }
 
 /// One of nine colours: tiles of the same colour are three apart. A tile's
@@ -110,7 +116,9 @@ impl Patch {
             if spare.contains(at) {
                 let alone = Window::from_iter([at]);
                 let group = alone.dilated() & spare;
-                let _ = self.merge(group, rules) || (group != alone && self.merge(alone, rules));
+                // Mostly its own fins alone would already break a rule.
+                let _ = is_regular(needed.ring_of(at)) && self.merge(group, rules)
+                    || group != alone && is_regular(self.centre.ring_of(at)) && self.merge(alone, rules);
             }
         }
         (0..25)
@@ -149,17 +157,9 @@ impl Patch {
 
     /// Whether no rule asks for anything where it can see the group.
     fn rules_hold(&self, group: Window, rules: &RuleSet) -> bool {
-        let mut reached = [false; 9];
-        for at in group.iter() {
-            for (dq, dr) in [(-4, -4), (4, -4), (-4, 4), (4, 4)] {
-                let (column, row) = ((at.q + dq) >> 3, (at.r + dr) >> 3);
-                // A group reaches one hexagon beyond the tile, a rule four:
-                // never more than the neighbouring tile.
-                reached[(3 * (row + 1) + column + 1) as usize] = true;
-            }
-        }
         // The tile in the middle is the likeliest to object.
-        [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(|&i| reached[i]).all(|i| {
+        let reached = |i: &usize| !(group & seen_from()[*i]).is_empty();
+        [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(reached).all(|i| {
             let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
             let view = View {
                 subdivided: Self::window(&self.subdivided, column, row),
@@ -175,6 +175,21 @@ impl Patch {
         let tiles = |r: i64| [-1, 0, 1].map(|c| plane[index(column + c, row + r)]);
         Window::gather(&[tiles(-1), tiles(0), tiles(1)])
     }
+}
+
+/// For each of the nine inner tiles the hexagons that a rule may see from it. A
+/// group reaches one hexagon beyond the tile in the middle, a rule four: never
+/// more than a neighbouring tile.
+fn seen_from() -> &'static [Window; 9] {
+    static SEEN: OnceLock<[Window; 9]> = OnceLock::new();
+    SEEN.get_or_init(|| {
+        std::array::from_fn(|i| {
+            let first = Hex::new(8 * (i as i64 % 3 - 1), 8 * (i as i64 / 3 - 1));
+            let tile = || (0..64).map(|bit| first + hex_of(bit));
+            let near = |at: &Hex| tile().any(|h| h.distance(*at) <= Window::MARGIN as u64);
+            Window::with_margin(1).iter().filter(near).collect()
+        })
+    })
 }
 
 /// Where a tile `column` and `row` tiles from the middle is kept.

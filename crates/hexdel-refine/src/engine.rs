@@ -15,10 +15,12 @@
 //! threads. A tile is asked again only after a change, so the work is in
 //! proportion to what changes: near-linear in the output.
 
+mod live;
+
 use crate::coarsen;
-use crate::queue::Queue;
+use crate::queue::Queues;
 use crate::rule::{RuleSet, Situation};
-use crate::sites::{Site, Sites};
+use crate::sites::Sites;
 use hexdel_classify::{Occupant, View};
 use hexdel_geom::DVec2;
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
@@ -27,6 +29,8 @@ use hexdel_grid::window::ones;
 use hexdel_grid::{Address, Grid, Lattice, TileId};
 use rayon::prelude::*;
 use thiserror::Error;
+
+pub use live::{Changes, RestoreError};
 
 /// Why points cannot be refined for.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -57,17 +61,25 @@ pub struct Refiner {
     /// All points. Each occupies a leaf of its level, whose mark is set, except
     /// while it descends.
     sites: Sites,
-    /// Per level: tiles whose rules must be asked again.
-    open: Vec<Queue>,
-    /// Per level: tiles whose demands on the next coarser level may have
-    /// grown.
-    unprojected: Vec<Queue>,
-    /// Per level: tiles with a neighbour that changed since the level was last
-    /// looked over for what can be merged; all of `unprojected` are in here.
-    loose: Vec<Queue>,
+    /// Per level: the tiles that are [`OPEN`], [`UNPROJECTED`] and [`LOOSE`].
+    waiting: Vec<Queues<3>>,
+    /// Points whose hexagon was subdivided: to be moved down.
+    moving: Queues<1>,
     /// Tiles asked so far, for progress.
     asked: u64,
+    /// What changes, if points come and go: then demands shrink as well.
+    live: Option<Changes>,
 }
+
+/// Tiles whose rules must be asked again.
+const OPEN: usize = 0;
+
+/// Tiles whose demands on the next coarser level may have grown.
+const UNPROJECTED: usize = 1;
+
+/// Tiles with a neighbour that changed since the level was last looked over
+/// for what can be merged; all that are unprojected are loose.
+const LOOSE: usize = 2;
 
 /// Fewer tiles than this are asked at once by one thread: handing them out
 /// would take longer.
@@ -84,10 +96,10 @@ impl Refiner {
             rules,
             coarsening: true,
             sites: Sites::default(),
-            open: Vec::new(),
-            unprojected: Vec::new(),
-            loose: Vec::new(),
+            waiting: Vec::new(),
+            moving: Queues::default(),
             asked: 0,
+            live: None,
         }
     }
 
@@ -110,7 +122,7 @@ impl Refiner {
 
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
-        self.sites.occupants()
+        self.sites.occupants(self.grid.lattice())
     }
 
     /// How many times the rules were asked about a tile so far, or what it
@@ -153,13 +165,12 @@ impl Refiner {
         hexagons: impl IntoIterator<Item = Address>,
         monitor: &dyn Monitor,
     ) -> Result<(), RefineError> {
-        let mut moving = Vec::new();
         for at in hexagons {
             let (id, bit) = self.grid.tile_of(at);
             self.grid.tiles_mut().get_mut(at.level, id).needed |= 1 << bit;
-            self.subdivide(at.level, id, 1 << bit, &mut moving);
+            self.subdivide(at.level, id, 1 << bit);
         }
-        self.sink(moving)?;
+        self.sink()?;
         self.close(monitor)
     }
 
@@ -169,40 +180,36 @@ impl Refiner {
         let mut level = 0;
         while !moving.is_empty() {
             check(monitor)?;
-            let mut next = Vec::new();
-            self.occupy_all(&moving, &mut next);
+            self.occupy_all(&moving);
             // Only points can be in conflict yet; what else the rules want is
             // asked again when all points have settled.
-            while let Some(queue) = self.open.get_mut(level).filter(|q| !q.is_empty()) {
-                let tiles = queue.take();
+            while let Some(queues) = self.waiting.get_mut(level).filter(|q| !q.is_empty(OPEN)) {
+                let tiles = queues.take(OPEN, TileId::new);
                 let occupied = |id| {
                     let tile = self.grid.tiles().get(level as u8, id);
                     tile.marks[0] | tile.marks[1]
                 };
                 let tiles: Vec<_> = tiles.into_iter().filter(|&id| occupied(id) != 0).collect();
-                for (id, bits) in self.ask(level as u8, tiles) {
-                    let tile = self.grid.tiles().get(level as u8, id);
-                    let occupied = tile.marks[0] | tile.marks[1];
-                    self.subdivide(level as u8, id, bits & occupied, &mut next);
+                for (id, bits) in self.ask(level as u8, tiles, RuleSet::must_subdivide_occupied) {
+                    self.subdivide(level as u8, id, bits);
                 }
             }
-            next.sort_unstable();
-            moving = next;
+            moving = self.take_moving();
             self.descend(&moving)?;
             level += 1;
         }
-        for level in 0..self.unprojected.len() {
-            self.open[level] = self.unprojected[level].clone();
+        for queues in &mut self.waiting {
+            queues.copy(UNPROJECTED, OPEN);
         }
         Ok(())
     }
 
     /// Closes and projects levels, finest first.
     fn close(&mut self, monitor: &dyn Monitor) -> Result<(), RefineError> {
-        let pending = |queues: &[Queue]| queues.iter().rposition(|q| !q.is_empty());
-        while let Some(level) = pending(&self.open).max(pending(&self.unprojected)) {
+        let pending = |q: &Queues<3>| !q.is_empty(OPEN) || !q.is_empty(UNPROJECTED);
+        while let Some(level) = self.waiting.iter().rposition(pending) {
             check(monitor)?;
-            if self.open[level].is_empty() {
+            if self.waiting[level].is_empty(OPEN) {
                 self.coarsen(level as u8);
                 self.project(level as u8)?;
             } else {
@@ -215,35 +222,41 @@ impl Refiner {
 
     /// Asks the open tiles of a level once and subdivides what they want.
     fn round(&mut self, level: u8) -> Result<(), RefineError> {
-        let tiles = self.open[usize::from(level)].take();
-        let mut moving = Vec::new();
-        for (id, bits) in self.ask(level, tiles) {
-            self.subdivide(level, id, bits, &mut moving);
+        let tiles = self.waiting[usize::from(level)].take(OPEN, TileId::new);
+        for (id, bits) in self.ask(level, tiles, RuleSet::must_subdivide) {
+            self.subdivide(level, id, bits);
         }
-        self.sink(moving)
+        self.sink()
     }
 
     /// Moves points whose hexagon was subdivided down to the next leaf.
-    fn sink(&mut self, mut moving: Vec<u32>) -> Result<(), RefineError> {
-        while !moving.is_empty() {
-            moving.sort_unstable();
+    fn sink(&mut self) -> Result<(), RefineError> {
+        while !self.moving.is_empty(0) {
+            let moving = self.take_moving();
             self.descend(&moving)?;
-            let mut next = Vec::new();
-            self.occupy_all(&moving, &mut next);
-            moving = next;
+            self.occupy_all(&moving);
         }
         Ok(())
     }
 
+    fn take_moving(&mut self) -> Vec<u32> {
+        self.moving.take(0, |id| id as u32)
+    }
+
     /// The hexagons that the rules want subdivided, by tile.
-    fn ask(&mut self, level: u8, tiles: Vec<TileId>) -> Vec<(TileId, u64)> {
+    fn ask(
+        &mut self,
+        level: u8,
+        tiles: Vec<TileId>,
+        wanted: fn(&RuleSet, &Situation) -> u64,
+    ) -> Vec<(TileId, u64)> {
         self.asked += tiles.len() as u64;
         let ask = |id| {
             let view = View::of(&self.grid, level, id);
             if view.is_empty() {
                 return (id, 0);
             }
-            (id, self.rules.must_subdivide(&Situation::of(view)))
+            (id, wanted(&self.rules, &Situation::of(view)))
         };
         let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
         tiles.map(ask).filter(|(_, bits)| *bits != 0).collect()
@@ -252,14 +265,15 @@ impl Refiner {
     /// Merges what a closed level has to spare.
     fn coarsen(&mut self, level: u8) {
         if self.coarsening {
-            let tiles = self.loose[usize::from(level)].take();
-            coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+            let tiles = self.waiting[usize::from(level)].take(LOOSE, TileId::new);
+            let merged = coarsen::coarsen(&mut self.grid, level, &tiles, &self.rules);
+            self.note_merged(level, &merged);
         }
     }
 
     /// Passes the demands of a level on to the next coarser one.
     fn project(&mut self, level: u8) -> Result<(), RefineError> {
-        let tiles = self.unprojected[usize::from(level)].take();
+        let tiles = self.waiting[usize::from(level)].take(UNPROJECTED, TileId::new);
         let Some(coarser) = level.checked_sub(1) else {
             return Ok(());
         };
@@ -274,38 +288,45 @@ impl Refiner {
             // lies beside.
             (id, self.rules.must_exist(&situation).dilated().even_centre())
         };
+        let shrinking = self.live.is_some();
         let tiles = tiles.into_par_iter().with_min_len(TILES_PER_TASK);
-        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| *d != 0).collect();
-        let mut moving = Vec::new();
+        let demands: Vec<_> = tiles.map(demand).filter(|(_, d)| shrinking || *d != 0).collect();
+        let mut lost = Vec::new();
         for (id, demand) in demands {
             let (parent, quadrant) = self.grid.tiles().parent(level, id).expect("level 0 is not projected");
             let bits = in_quadrant(demand, quadrant);
-            let tile = self.grid.tiles_mut().get_mut(coarser, parent);
-            tile.needed |= bits;
-            self.subdivide(coarser, parent, bits, &mut moving);
+            if shrinking {
+                lost.extend(self.replace_needed(coarser, parent, (quadrant, bits)));
+            } else {
+                self.grid.tiles_mut().get_mut(coarser, parent).needed |= bits;
+            }
+            self.subdivide(coarser, parent, bits);
         }
-        self.sink(moving)
+        self.reset(coarser, lost);
+        self.sink()
     }
 
-    /// Subdivides hexagons of a tile. The points that occupy them are added to
-    /// `moving`.
-    fn subdivide(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) {
-        let subdivided = self.mark_subdivided(level, id, bits, moving);
+    /// Subdivides hexagons of a tile. The points that occupy them are to be
+    /// moved.
+    fn subdivide(&mut self, level: u8, id: TileId, bits: u64) {
+        let subdivided = self.mark_subdivided(level, id, bits);
         if subdivided != 0 {
             self.changed(level, id, subdivided);
         }
     }
 
     /// The same without noting the change; returns what was not subdivided yet.
-    fn mark_subdivided(&mut self, level: u8, id: TileId, bits: u64, moving: &mut Vec<u32>) -> u64 {
+    fn mark_subdivided(&mut self, level: u8, id: TileId, bits: u64) -> u64 {
+        self.note(level, id);
         let tile = self.grid.tiles_mut().get_mut(level, id);
         let bits = bits & !tile.subdivided;
         tile.subdivided |= bits;
         let occupied = bits & (tile.marks[0] | tile.marks[1]);
         tile.marks = tile.marks.map(|plane| plane & !bits);
         for bit in ones(occupied) {
-            let site = self.sites.leave(level, id, bit);
-            moving.push(site.expect("a marked hexagon has an occupant"));
+            let site = self.sites.leave(level, id, bit).expect("a marked hexagon has an occupant");
+            self.note_site(site);
+            self.moving.push(site as usize, [true]);
         }
         bits
     }
@@ -315,10 +336,7 @@ impl Refiner {
         let (lattice, levels) = (*self.grid.lattice(), Grid::MAX_LEVELS);
         // As many at once as the cache holds.
         for some in moving.chunks(SITES_AT_ONCE) {
-            let lower = |&id: &u32| {
-                let s = self.sites.get(id);
-                Site::new(&lattice, s.level + 1, s.point)
-            };
+            let lower = |&id: &u32| self.sites.get(id).below(&lattice);
             let lowered: Vec<_> = some.par_iter().with_min_len(TILES_PER_TASK).map(lower).collect();
             for (&id, site) in some.iter().zip(lowered) {
                 if site.level >= levels {
@@ -333,7 +351,7 @@ impl Refiner {
 
     /// Lets points occupy their hexagons. If one is subdivided its point moves
     /// on, if it is occupied both do.
-    fn occupy_all(&mut self, sites: &[u32], moving: &mut Vec<u32>) {
+    fn occupy_all(&mut self, sites: &[u32]) {
         // Points come along a curve: the next one's tile is near the last's,
         // and mostly the same. What changed in it is noted once.
         let mut last: Option<(u8, TileId, u64)> = None;
@@ -341,14 +359,14 @@ impl Refiner {
         for &id in sites {
             let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
             if passed == Some((level, hex)) {
-                moving.push(id);
+                self.moving.push(id as usize, [true]);
                 continue;
             }
             let (tile, bit) = match last.filter(|&(l, _, _)| l == level) {
                 Some((_, near, _)) => self.grid.tiles_mut().require_near(level, near, hex),
                 None => self.grid.tile_of(Address::new(level, hex)),
             };
-            let changed = self.occupy(id, (tile, bit), moving);
+            let changed = self.occupy(id, (tile, bit));
             if self.grid.tiles().get(level, tile).subdivided >> bit & 1 == 1 {
                 passed = Some((level, hex));
             }
@@ -361,18 +379,20 @@ impl Refiner {
     }
 
     /// Returns what changed in the tile: the point's hexagon, or nothing.
-    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32), moving: &mut Vec<u32>) -> u64 {
+    fn occupy(&mut self, site: u32, (id, bit): (TileId, u32)) -> u64 {
         let level = self.sites.get(site).level;
-        let tile = self.grid.tiles_mut().get_mut(level, id);
+        let tile = self.grid.tiles().get(level, id);
         if tile.subdivided >> bit & 1 == 1 {
-            moving.push(site);
+            self.moving.push(site as usize, [true]);
             return 0;
         }
         if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
-            moving.push(site);
-            return self.mark_subdivided(level, id, 1 << bit, moving);
+            self.moving.push(site as usize, [true]);
+            return self.mark_subdivided(level, id, 1 << bit);
         }
-        tile.marks[self.sites.get(site).plane()] |= 1 << bit;
+        self.note(level, id);
+        let plane = self.sites.get(site).plane(self.grid.lattice());
+        self.grid.tiles_mut().get_mut(level, id).marks[plane] |= 1 << bit;
         self.sites.enter(site, id);
         1 << bit
     }
@@ -387,18 +407,12 @@ impl Refiner {
     /// asked again.
     fn changed(&mut self, level: u8, id: TileId, bits: u64) {
         let k = usize::from(level);
-        if k >= self.open.len() {
-            self.open.resize_with(k + 1, Queue::default);
-            self.unprojected.resize_with(k + 1, Queue::default);
-            self.loose.resize_with(k + 1, Queue::default);
+        if k >= self.waiting.len() {
+            self.waiting.resize_with(k + 1, Queues::default);
         }
-        let (open, unprojected) = (&mut self.open[k], &mut self.unprojected[k]);
-        self.grid.tiles_mut().require_margin(level, id, bits, |tile| {
-            open.push(tile);
-            unprojected.push(tile);
-        });
-        for tile in self.grid.tiles().around(level, id) {
-            self.loose[k].push(tile);
+        let queues = &mut self.waiting[k];
+        for (tile, reached) in self.grid.tiles_mut().require_margin(level, id, bits).iter() {
+            queues.push(tile.index(), [reached, reached, true]);
         }
     }
 

@@ -19,6 +19,9 @@ pub static RULES: &[&dyn Rule] = &[
     &TwoFinsBesideRun,
 ];
 
+/// Those of them that ask for occupied hexagons whether they have fins or not.
+pub static ABOUT_POINTS: &[&dyn Rule] = &[&MovedInRing, &OccupiedRings];
+
 /// Subdivide any hexagon of type SUBDIVIDE: its fins are not consecutive, or
 /// more than three.
 pub struct SubdivideClass;
@@ -74,14 +77,17 @@ impl Rule for OccupiedRings {
         }
         let (one, two) = (s.view.occupied1, s.view.occupied2);
         let mut close = Window::EMPTY;
+        if !(one | two).holds_several() {
+            return close;
+        }
         if !one.is_empty() {
-            close = one & one.others_within(1);
+            close = one & one.others_within::<1>();
         }
         if !two.is_empty() {
-            close |= two & two.others_within(3);
+            close |= two & two.others_within::<3>();
         }
         if !one.is_empty() && !two.is_empty() {
-            close |= one & two.others_within(2) | two & one.others_within(2);
+            close |= one & two.others_within::<2>() | two & one.others_within::<2>();
         }
         close
     }
@@ -172,20 +178,29 @@ impl Rule for TwoFinsBesideRun {
         if c.moved3.is_empty() || c.moved2.is_empty() {
             return Window::EMPTY;
         }
-        let mut set = Window::EMPTY;
-        for (d, with_next) in c.with_next().into_iter().enumerate() {
-            if with_next.is_empty() {
-                continue;
-            }
-            // Around the top at -d, the next lies at d + 2, the one before at
-            // d - 2; the hexagon beyond it in the same direction again.
-            let (next, before) = (Direction::new(d + 2), Direction::new(d + 4));
-            // The first of the two, and the second as its neighbour sees it:
-            // its middle fin is one direction on.
-            set |= (with_next & c.moved2.at(before)).moved(before).moved(before);
-            let (second, after) = (with_next.moved(next), Direction::new(d + 3));
-            set |= (second & c.moved2.at(after)).moved(after).moved(after);
+        let [a, b, c0, d, e, f] = c.with_next();
+        if (a | b | c0 | d | e | f).is_empty() {
+            return Window::EMPTY;
         }
-        set
+        beyond_run::<0>(a, c.moved2)
+            | beyond_run::<1>(b, c.moved2)
+            | beyond_run::<2>(c0, c.moved2)
+            | beyond_run::<3>(d, c.moved2)
+            | beyond_run::<4>(e, c.moved2)
+            | beyond_run::<5>(f, c.moved2)
     }
+}
+
+/// What lies beyond a `MovedCenter2` at an end of the runs of two, of which
+/// `first` are those with their middle fin in direction `D`.
+#[inline]
+fn beyond_run<const D: usize>(first: Window, moved2: Window) -> Window {
+    // Around the top at -D, the next lies at D + 2, the one before at D - 2;
+    // the hexagon beyond it in the same direction again.
+    let (next, before) = const { (Direction::new(D + 2), Direction::new(D + 4)) };
+    // The first of the two, and the second as its neighbour sees it: its
+    // middle fin is one direction on.
+    let (second, after) = (first.moved(next), const { Direction::new(D + 3) });
+    (first & moved2.at(before)).moved(before).moved(before)
+        | (second & moved2.at(after)).moved(after).moved(after)
 }

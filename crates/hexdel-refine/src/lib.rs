@@ -27,5 +27,5 @@ pub mod sites;
 pub mod triangle;
 
 pub use coarse::Start;
-pub use engine::{RefineError, Refiner};
+pub use engine::{Changes, RefineError, Refiner, RestoreError};
 pub use rule::{Rule, RuleSet, Situation};

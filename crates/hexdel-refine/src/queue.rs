@@ -1,56 +1,59 @@
-//! Tiles that wait for their turn.
+//! Tiles, or points, that wait for their turn.
 
-use hexdel_grid::TileId;
 use hexdel_grid::window::ones;
 
-/// A set of tiles of one level, taken in the order of their ids.
+/// Several sets of ids, of which each is taken in order.
 #[derive(Clone, Debug)]
-pub(crate) struct Queue {
-    /// A bit per tile id; clear beyond the end.
-    words: Vec<u64>,
-    /// All words that are not zero lie from here ..
-    start: usize,
-    /// .. to before here; if there are none, this is 0 and the start is the
-    /// largest of numbers, such that a word more is a minimum and a maximum.
-    end: usize,
+pub(crate) struct Queues<const N: usize> {
+    /// A bit per id, of each set.
+    words: Vec<[u64; N]>,
+    /// Which of the sets may hold something.
+    any: [bool; N],
 }
 
-impl Default for Queue {
+impl<const N: usize> Default for Queues<N> {
     fn default() -> Self {
-        Self { words: Vec::new(), start: usize::MAX, end: 0 }
+        Self { words: Vec::new(), any: [false; N] }
     }
 }
 
-impl Queue {
+impl<const N: usize> Queues<N> {
+    /// Adds an id to some of the sets.
     #[inline]
-    pub(crate) fn push(&mut self, id: TileId) {
-        let (word, bit) = (id.index() / 64, id.index() % 64);
+    pub(crate) fn push(&mut self, id: usize, to: [bool; N]) {
+        let (word, bit) = (id / 64, id % 64);
         if word >= self.words.len() {
-            // As a vector grows: the level's tiles are made one by one.
-            self.words.resize((word + 1).next_power_of_two(), 0);
+            // As a vector grows: ids are made one by one.
+            self.words.resize((word + 1).next_power_of_two(), [0; N]);
         }
-        self.words[word] |= 1 << bit;
-        (self.start, self.end) = (self.start.min(word), self.end.max(word + 1));
-    }
-
-    pub(crate) fn is_empty(&self) -> bool {
-        self.end == 0
-    }
-
-    /// The tiles, in order.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = TileId> {
-        let words = (self.start..self.end).map(|word| (64 * word, self.words[word]));
-        words.flat_map(|(first, word)| ones(word).map(move |bit| TileId::new(first + bit as usize)))
-    }
-
-    /// Empties the queue; in order.
-    pub(crate) fn take(&mut self) -> Vec<TileId> {
-        let tiles = self.iter().collect();
-        if !self.is_empty() {
-            self.words[self.start..self.end].fill(0);
-            (self.start, self.end) = (usize::MAX, 0);
+        for (set, to) in to.into_iter().enumerate() {
+            self.words[word][set] |= u64::from(to) << bit;
+            self.any[set] |= to;
         }
-        tiles
+    }
+
+    pub(crate) fn is_empty(&self, set: usize) -> bool {
+        !self.any[set]
+    }
+
+    /// Empties a set; in order.
+    pub(crate) fn take<T>(&mut self, set: usize, id: impl Fn(usize) -> T) -> Vec<T> {
+        let mut all = Vec::new();
+        if std::mem::take(&mut self.any[set]) {
+            for (first, words) in (0..).step_by(64).zip(&mut self.words) {
+                let bits = std::mem::take(&mut words[set]);
+                all.extend(ones(bits).map(|bit| id(first + bit as usize)));
+            }
+        }
+        all
+    }
+
+    /// Makes one set equal to another.
+    pub(crate) fn copy(&mut self, from: usize, to: usize) {
+        for words in &mut self.words {
+            words[to] = words[from];
+        }
+        self.any[to] = self.any[from];
     }
 }
 
@@ -59,16 +62,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiles_come_once_and_in_order() {
-        let mut queue = Queue::default();
-        assert!(queue.is_empty());
+    fn ids_come_once_and_in_order() {
+        let mut queues = Queues::<2>::default();
         for i in [700, 3, 64, 3, 65, 0] {
-            queue.push(TileId::new(i));
+            queues.push(i, [i > 3, true]);
         }
-        assert!(!queue.is_empty());
-        let taken: Vec<_> = queue.take().into_iter().map(TileId::index).collect();
-        assert_eq!(taken, [0, 3, 64, 65, 700]);
-        assert!(queue.is_empty());
-        assert!(queue.take().is_empty());
+        assert!(!queues.is_empty(0) && !queues.is_empty(1));
+        assert_eq!(queues.take(1, |id| id), [0, 3, 64, 65, 700]);
+        assert!(queues.is_empty(1) && queues.take(1, |id| id).is_empty());
+        queues.copy(0, 1);
+        for set in 0..2 {
+            assert_eq!(queues.take(set, |id| id), [64, 65, 700]);
+        }
     }
 }

@@ -10,6 +10,9 @@ use hexdel_grid::Window;
 /// The rules of this module, in the paper's order.
 pub static RULES: &[&dyn Rule] = &[&Balance, &AdjacentOccupied, &OccupiedAmongFull, &OccupiedBesideFiner];
 
+/// Those of them that ask for occupied hexagons.
+pub static ABOUT_POINTS: &[&dyn Rule] = &[&AdjacentOccupied, &OccupiedBesideFiner];
+
 /// Section 3.3: a subdivided hexagon is surrounded by hexagons of its level.
 pub struct Balance;
 
@@ -33,10 +36,11 @@ impl Rule for AdjacentOccupied {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        if !s.holds_points() {
+        let occupied = s.view.occupied();
+        if !occupied.holds_several() || !s.holds_points() {
             return Window::EMPTY;
         }
-        s.view.occupied() & s.view.occupied().others_within(1)
+        occupied & occupied.others_within::<1>()
     }
 }
 
@@ -68,6 +72,6 @@ impl Rule for OccupiedBesideFiner {
         if !s.holds_points() {
             return Window::EMPTY;
         }
-        s.view.occupied() & s.view.subdivided.others_within(1)
+        s.view.occupied() & s.view.subdivided.others_within::<1>()
     }
 }

@@ -1,7 +1,7 @@
 //! Input points and the hexagons they occupy.
 
 use hexdel_classify::Occupant;
-use hexdel_classify::relocate::ring_may_stay;
+use hexdel_classify::relocate::{RING_STAYS, ring_norm};
 use hexdel_geom::DVec2;
 use hexdel_geom::double_double::Double;
 use hexdel_grid::{Hex, Lattice, Located, TileId};
@@ -14,7 +14,7 @@ pub struct Site {
     pub point: DVec2,
     /// The level of the leaf it occupies.
     pub level: u8,
-    /// That leaf, and where in it the point lies.
+    /// That leaf, and where in it the point lies, to a millionth.
     pub at: Located,
 }
 
@@ -24,10 +24,21 @@ impl Site {
         Self { point, level, at: lattice.locate(level, point) }
     }
 
+    /// The same point one level down.
+    #[must_use]
+    pub fn below(&self, lattice: &Lattice) -> Self {
+        let at = lattice.locate_below(self.level, &self.at, self.point);
+        Self { point: self.point, level: self.level + 1, at }
+    }
+
     /// The plane of tile marks that the hexagon belongs to: class `Occupied1`
     /// or `Occupied2`.
-    pub fn plane(&self) -> usize {
-        usize::from(!ring_may_stay(&self.at))
+    pub fn plane(&self, lattice: &Lattice) -> usize {
+        const DOUBTFUL: f64 = 1e-5;
+        let norm = ring_norm(&self.at);
+        let in_doubt = (norm - RING_STAYS).abs() < DOUBTFUL;
+        let norm = if in_doubt { ring_norm(&lattice.locate(self.level, self.point)) } else { norm };
+        usize::from(norm > RING_STAYS)
     }
 }
 
@@ -67,10 +78,10 @@ impl Sites {
     }
 
     /// The points and the leaves they occupy, in the order of adding.
-    pub(crate) fn occupants(&self) -> Vec<Occupant> {
+    pub(crate) fn occupants(&self, lattice: &Lattice) -> Vec<Occupant> {
         let occupant = |&id: &u32| {
-            let s = &self.all[id as usize];
-            Occupant { level: s.level, at: s.at, tile: self.tile[id as usize], point: s.point }
+            let &Site { point, level, .. } = self.get(id);
+            Occupant { level, at: lattice.locate(level, point), tile: self.tile[id as usize], point }
         };
         self.rank.par_iter().map(occupant).collect()
     }
@@ -88,6 +99,35 @@ impl Sites {
     /// Which point a site is, in the order of adding. Takes a search.
     pub(crate) fn index_of(&self, id: u32) -> usize {
         self.rank.iter().position(|&r| r == id).expect("every site was added")
+    }
+
+    /// The site id of each point, in the order of adding.
+    pub(crate) fn ids(&self) -> &[u32] {
+        &self.rank
+    }
+
+    /// The tile that a site was last put into.
+    pub(crate) fn tile_of(&self, id: u32) -> TileId {
+        self.tile[id as usize]
+    }
+
+    /// Forgets the sites from `len` on, which occupy nothing.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.all.truncate(len);
+        self.rank.truncate(len);
+        self.tile.truncate(len);
+        self.next.truncate(len);
+    }
+
+    /// The sites that occupy hexagons of a tile.
+    pub(crate) fn of_tile(&self, level: u8, tile: TileId) -> impl Iterator<Item = u32> + '_ {
+        let heads = self.heads.get(usize::from(level)).and_then(|heads| heads.get(tile.index()));
+        let mut id = heads.copied().unwrap_or(NONE);
+        std::iter::from_fn(move || {
+            let found = (id != NONE).then_some(id)?;
+            id = self.next[found as usize];
+            Some(found)
+        })
     }
 
     /// Notes that a site occupies its hexagon, which is one of `tile`.
@@ -166,7 +206,7 @@ mod tests {
         let mut sites = Sites::default();
         assert_eq!(sites.add(&lattice(), &points[..20]), (0..20).collect::<Vec<_>>());
         assert_eq!(sites.add(&lattice(), &points[20..]), (20..50).collect::<Vec<_>>());
-        let back: Vec<_> = sites.occupants().into_iter().map(|o| o.point).collect();
+        let back: Vec<_> = sites.occupants(&lattice()).into_iter().map(|o| o.point).collect();
         assert_eq!(back, points);
         for id in 0..50 {
             assert_eq!(points[sites.index_of(id)], sites.get(id).point);

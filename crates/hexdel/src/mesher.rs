@@ -13,6 +13,7 @@ use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
     certify, restore_delaunay, settle_rounding,
 };
+use hexdel_grid::Lattice;
 use hexdel_optimize::{Effort, SIZE_TOLERANCE};
 use hexdel_refine::{Refiner, RuleSet, Start as Coarse};
 use std::time::{Duration, Instant};
@@ -472,6 +473,21 @@ impl Mesher {
             },
             refiner,
         })
+    }
+
+    /// The lattice of a mesh of templates with the base level as its coarsest,
+    /// and the steps of that to the corners.
+    pub(crate) fn coarsest_lattice(&self, points: &[DVec2]) -> Result<(Lattice, u32), Error> {
+        let set = PointSet::new(points)?;
+        let placement = Placement::around(&set, self.domain_radius, self.centre)?;
+        let mut refiner = Refiner::new(placement.lattice, Start::Templates.rules(self.effort));
+        self.on_threads(|| {
+            let refined = refiner.insert(set.sites(), &Unwatched);
+            refined.map_err(|error| Error::of_refinement(error, || placement::unresolved(&set)))
+        })?;
+        let domain = placement.domain(refiner.grid(), Relocation::Full)?;
+        let lattice = placement.lattice;
+        Ok((Lattice::new(lattice.origin(), lattice.spacing(domain.base_level)), domain.radius))
     }
 
     /// Refuses sizes that coordinates do not resolve in the domain.

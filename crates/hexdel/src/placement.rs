@@ -22,6 +22,10 @@ const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
 /// Largest coordinate: predicates take products of four, and of differences.
 pub(crate) const MAX_COORDINATE: f64 = 1e70;
 
+/// Steps of a session's domain that coordinates must resolve: a hundred levels
+/// of halving would not be seen.
+pub(crate) const FINEST: f64 = 1024.0;
+
 /// Spacings of the finest level that a coordinate's last place must fit into.
 /// An angle is then off by about `2^-15` radians, two thousandths of a degree,
 /// at the very worst, and reported as limited by rounding.
@@ -96,7 +100,7 @@ impl Placement {
     /// A single site has no scale of its own: a patch of radius 1 or, far away,
     /// as small as coordinates resolve there.
     fn of_one(site: DVec2, radius: Option<f64>) -> Result<Self, Error> {
-        let least = finest_spacing(site);
+        let least = finest_spacing(site).max(1.0 / MAX_COORDINATE);
         let (spacing, steps) = match radius {
             Some(radius) => (radius / f64::from(STEPS[0]), Some(STEPS[0])),
             None => (least.max(1.0), None),
@@ -191,9 +195,14 @@ fn check_resolved(points: &PointSet, pair: &ClosestPair) -> Result<(), Error> {
     let sites = points.sites();
     let size = |site: &DVec2| site.abs().max_element();
     let mut beyond = sites.iter().map(size).fold(0.0, f64::max);
+    let mut looked_at = 0;
     while pair.distance < finest_spacing(DVec2::splat(beyond)) * CONFLICT_REACH {
         beyond *= 0.5;
         let indices: Vec<usize> = (0..sites.len()).filter(|&i| size(&sites[i]) >= beyond).collect();
+        // The same points have the same closest pair.
+        if std::mem::replace(&mut looked_at, indices.len()) == indices.len() {
+            continue;
+        }
         let far: Vec<DVec2> = indices.iter().map(|&i| sites[i]).collect();
         if let Some(found) = closest_pair(&far) {
             check_pair(points, &ClosestPair { a: indices[found.a], b: indices[found.b], ..found })?;

@@ -41,13 +41,12 @@ impl Sized<'_> {
     pub(crate) fn extract(&mut self, patch: Domain) -> Result<(Dual, Domain), Error> {
         let mut domain = self.with_base(patch)?;
         let mut first = domain.radius;
-        for round in 0..ROUNDS {
+        for _ in 0..ROUNDS {
             let occupants = self.refiner.occupants();
             let grid = self.refiner.grid_mut();
             let dual = extract(grid, &occupants, domain, self.relocation, self.monitor)?;
-            if round == 0 {
-                check_count(&dual.mesh, self.size)?;
-            }
+            // What is fine in a place that no triangle has seen yet shows later.
+            check_count(&dual.mesh, self.size)?;
             let long = self.at_long_edges(&dual.mesh, domain.base_level)?;
             if long.is_empty() {
                 return Ok((dual, domain));

@@ -2,54 +2,16 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
-use hexdel::optimize::live::Delta;
+#[path = "common/sessions.rs"]
+mod common;
+
+use common::{Copy, refused};
+use hexdel::size::SizeError;
 use hexdel::{DVec2, Effort, Mesher, Outcome, PointId, Session, SessionError, Size, generate};
 use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 fn points(n: usize, seed: u64) -> Vec<DVec2> {
     generate::generate(generate::Kind::Uniform, n, seed)
-}
-
-/// A copy of a mesh that is kept by deltas alone.
-#[derive(Debug, Default, PartialEq)]
-struct Copy {
-    vertices: BTreeMap<u64, DVec2>,
-    triangles: BTreeMap<u64, [u64; 3]>,
-}
-
-impl Copy {
-    fn of(session: &Session) -> Self {
-        let made = session.mesh();
-        let serial = |t: &[hexdel::VertexId; 3]| t.map(|v| made.vertex_serials[v.index()]);
-        Self {
-            vertices: made.vertex_serials.iter().copied().zip(made.mesh.vertices.clone()).collect(),
-            triangles: made
-                .triangle_serials
-                .iter()
-                .copied()
-                .zip(made.mesh.triangles.iter().map(serial))
-                .collect(),
-        }
-    }
-
-    fn follow(&mut self, delta: &Delta) {
-        for t in &delta.triangles_removed {
-            assert!(self.triangles.remove(t).is_some(), "triangle {t} was not there");
-        }
-        for v in &delta.vertices_removed {
-            assert!(self.vertices.remove(v).is_some(), "vertex {v} was not there");
-        }
-        for &(v, at) in &delta.vertices_added {
-            assert!(self.vertices.insert(v, at).is_none(), "vertex {v} was there");
-        }
-        for &(v, at) in &delta.vertices_moved {
-            assert!(self.vertices.insert(v, at).is_some_and(|old| old != at), "vertex {v} did not move");
-        }
-        for &(t, corners) in &delta.triangles_added {
-            assert!(self.triangles.insert(t, corners).is_none(), "triangle {t} was there");
-        }
-    }
 }
 
 /// What every state keeps.
@@ -66,17 +28,6 @@ fn check(session: &Session) {
             assert!(hexdel::optimize::triangle_fits(size, corners), "an edge of {corners:?} is too long");
         }
     }
-}
-
-/// Asserts that a call is refused and has changed nothing.
-fn refused(
-    session: &mut Session,
-    call: impl FnOnce(&mut Session) -> Result<Outcome, SessionError>,
-) -> SessionError {
-    let before = session.to_ron().unwrap();
-    let error = call(session).expect_err("the call is refused");
-    assert_eq!(session.to_ron().unwrap(), before, "after {error}");
-    error
 }
 
 /// One call of a random sequence.
@@ -165,6 +116,31 @@ fn points_that_come_and_go_leave_as_many_triangles_as_there_were() {
     assert!((after / before - 1.0).abs() < 0.1, "{before} triangles, then {after}");
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 6, ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_comes_and_goes_leaves_no_more_than_a_tenth(
+        seed in 0..1000_u64,
+        calls in prop::collection::vec(prop_oneof![
+            (-1.4..1.4, -1.2..1.2).prop_map(|(x, y)| Call::Insert(x, y)),
+            (0..100_usize, 0.0..6.3, 1.0..2.5).prop_map(|(i, a, e)| Call::Near(i, a, e)),
+        ], 1..6),
+    ) {
+        let mesher = Mesher::new().domain_radius(1.5);
+        let mut session = Session::new(&points(40, seed), &mesher).unwrap();
+        let before = session.counts()[2] as f64;
+        let mut ids = Vec::new();
+        for call in &calls {
+            ids.extend(run(&mut session, call).map_or(Vec::new(), |o| o.points));
+        }
+        session.remove(&ids).unwrap();
+        check(&session);
+        let after = session.counts()[2] as f64;
+        prop_assert!((after / before - 1.0).abs() <= 0.1, "{} triangles, then {}", before, after);
+    }
+}
+
 #[test]
 fn one_by_one_is_as_good_as_at_once() {
     let all = points(60, 5);
@@ -222,7 +198,15 @@ fn bad_calls_are_named_and_change_nothing() {
         let size = Size::function(move |_| bad);
         assert!(matches!(refused(s, |s| s.set_size(Some(size))), SessionError::Size(_)));
     }
-    for (centre, radius) in [(DVec2::ZERO, 0.0), (DVec2::ZERO, f64::NAN), (DVec2::splat(1e20), 1.0)] {
+    // Far finer than any triangle that there is before would tell.
+    let hidden = Size::unlimited().and_box(at, at + 0.02, 1e-6).unwrap();
+    assert!(matches!(
+        refused(s, |s| s.set_size(Some(hidden))),
+        SessionError::Size(SizeError::TooMany { .. })
+    ));
+    for (centre, radius) in
+        [(DVec2::ZERO, 5e-324), (DVec2::ZERO, 0.0), (DVec2::ZERO, f64::NAN), (DVec2::splat(1e20), 1.0)]
+    {
         let refused = Session::empty(centre, radius);
         assert!(matches!(refused, Err(SessionError::InvalidDomain { .. })), "{radius}");
     }
@@ -281,6 +265,10 @@ fn texts_that_are_no_sessions_are_refused() {
         ("radius:", "radius:-"),
         ("slope:0.5", "slope:0.0"),
         ("Constant(0.3)", "Constant(0.0)"),
+        ("Constant(0.3)", "Constant(0.2)"),
+        ("Constant(0.3)", "Constant(1e-30)"),
+        ("max_deg:90.0", "max_deg:NaN"),
+        ("max_deg:90.0", "max_deg:inf"),
         ("free_vertices:[", "free_vertices:[0,"),
         ("Fixed", "Free"),
         ("points:[Some(", "points:[Some(9"),

@@ -14,11 +14,16 @@ fn sizes() -> Vec<(&'static str, Size)> {
         cell: 1.0,
         values: vec![Some(0.05), None, Some(0.4), Some(0.2)],
     };
+    let triangle = vec![DVec2::new(0.1, 0.1), DVec2::new(0.4, 0.15), DVec2::new(0.2, 0.5)];
+    let two_boxes = Size::constant(0.3).unwrap().and_box(DVec2::ZERO, DVec2::new(0.5, 1.0), 0.05).unwrap();
+    let two_boxes = two_boxes.and_box(DVec2::new(0.5, 0.0), DVec2::ONE, 0.1).unwrap();
     vec![
         ("constant", Size::constant(0.11).unwrap()),
         ("box", Size::unlimited().and_box(DVec2::splat(0.3), DVec2::new(0.4, 0.5), 0.03).unwrap()),
         ("points", Size::constant(0.5).unwrap().and_points(&[(DVec2::new(0.7, 0.2), 0.01)]).unwrap()),
         ("raster", Size::unlimited().and_raster(&raster).unwrap()),
+        ("polygon", Size::unlimited().with_gradation(0.2).unwrap().and_polygon(triangle, 0.04).unwrap()),
+        ("two boxes", two_boxes),
         ("function", Size::function(|p| 0.05 + 0.2 * p.x.abs())),
         ("area", Size::area(0.002).unwrap()),
     ]
@@ -60,6 +65,28 @@ fn sizes_that_cannot_be_had_are_refused() {
     ));
     let spike = Size::function(|p| if p.distance(DVec2::new(0.5, 0.1)) < 0.3 { f64::NAN } else { 1.0 });
     assert!(matches!(refused(spike), SizeError::TooMany { .. } | SizeError::NotPositive { .. }));
+}
+
+/// The length of the longest edge with an end so far from the origin.
+fn longest_at(size: Size, from: f64, to: f64) -> f64 {
+    let points = [DVec2::new(-1.0, -1.0), DVec2::new(1.0, 1.0)];
+    let made = Mesher::new().size(size).triangulate(&points).unwrap();
+    let at = |v: hexdel::VertexId| made.mesh.vertices[v.index()];
+    let sides = made.mesh.triangles.iter().flat_map(|t| (0..3).map(|k| [at(t[k]), at(t[(k + 1) % 3])]));
+    let there = sides.filter(|side| side.iter().all(|p| (from..to).contains(&p.length())));
+    there.map(|[a, b]| a.distance(b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn edges_grow_with_the_distance_by_the_gradation() {
+    let spot = |g| Size::unlimited().with_gradation(g).unwrap().and_points(&[(DVec2::ZERO, 0.01)]).unwrap();
+    for gradation in [0.1, 0.3] {
+        for (from, to) in [(0.1, 0.3), (0.3, 0.6)] {
+            let longest = longest_at(spot(gradation), from, to);
+            let (least, most) = (0.2 * (0.01 + gradation * from), 0.01 + gradation * to);
+            assert!((least..=most).contains(&longest), "{gradation}, {from} to {to}: {longest}");
+        }
+    }
 }
 
 #[test]

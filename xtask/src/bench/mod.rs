@@ -21,6 +21,12 @@ pub(crate) struct Args {
     /// Print the tables, but do not write docs/performance.md
     #[arg(long)]
     dry: bool,
+    /// Measure these inputs alone, and write nothing
+    #[arg(long, value_enum, value_delimiter = ',')]
+    inputs: Vec<Input>,
+    /// Measure these numbers of points alone, and write nothing
+    #[arg(long, value_delimiter = ',')]
+    sizes: Vec<usize>,
     /// Measure this mesher alone, in this process
     #[arg(long, value_enum)]
     case: Option<Mesher>,
@@ -46,11 +52,16 @@ pub(crate) fn run(args: &Args) -> Outcome {
         };
         return Case { mesher, input: args.input, points: args.points, threads: args.threads, hexagon }.run();
     }
-    let sizes: &[usize] = &[1000, 10_000, 100_000, 1_000_000];
-    let sizes = if args.quick { &sizes[..3] } else { sizes };
+    let partial = !args.inputs.is_empty() || !args.sizes.is_empty();
+    let inputs = if args.inputs.is_empty() { &Input::ALL[..] } else { &args.inputs };
+    let sizes = match args.sizes.as_slice() {
+        [] if args.quick => &[1000, 10_000, 100_000][..],
+        [] => &[1000, 10_000, 100_000, 1_000_000],
+        sizes => sizes,
+    };
     let threads = std::thread::available_parallelism()?.get();
     let mut rows = Vec::new();
-    for input in Input::ALL {
+    for &input in inputs {
         for &points in sizes {
             let row = measure_row(input, points, threads)?;
             println!("{}", row.summary());
@@ -73,7 +84,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
     }
     let tables = report::tables(&rows, &memory, threads);
     println!("{tables}");
-    if args.dry { Ok(()) } else { report::write(&tables) }
+    if args.dry || partial { Ok(()) } else { report::write(&tables) }
 }
 
 fn measure_row(input: Input, points: usize, threads: usize) -> Result<Row, Box<dyn std::error::Error>> {

@@ -93,8 +93,12 @@ fn exponents(out: &mut String, rows: &[Row]) {
     *out += "\nExponent of processor time over the number of points, from 10 000 points on.\n\n\
              | input | hexdel | spade |\n|---|---:|---:|\n";
     for input in Input::ALL {
+        let large = || rows.iter().filter(|r| r.input == input && r.points >= 10_000);
+        if large().count() < 2 {
+            continue;
+        }
         let of = |pick: fn(&Row) -> &Measured| {
-            let rows = rows.iter().filter(|r| r.input == input && r.points >= 10_000);
+            let rows = large();
             slope(rows.map(|r| ((r.points as f64).ln(), pick(r).cpu().ln())))
         };
         let _ = writeln!(out, "| {} | {:.3} | {:.3} |", input.name(), of(|r| &r.one), of(|r| &r.spade));

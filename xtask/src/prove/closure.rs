@@ -41,7 +41,7 @@ pub(crate) fn closed(pattern: Window, rules: &RuleSet, keeps: impl Fn(&Grid) -> 
         }
         let with_bits: Vec<_> = tiles(&grid).map(|id| (id, grid.tiles().get(0, id).subdivided)).collect();
         for (id, bits) in with_bits {
-            grid.tiles_mut().require_margin(0, id, bits, |_| {});
+            grid.tiles_mut().require_margin(0, id, bits);
         }
         let asked: Vec<_> = tiles(&grid)
             .map(|id| (id, rules.must_subdivide(&Situation::of(View::of(&grid, 0, id)))))

@@ -14,7 +14,6 @@ use super::fires::Fires;
 use super::pattern::{Plan, Unit};
 use hexdel_classify::dual::local::{LocalTriangle, Place};
 use hexdel_classify::{Classes, ExactBounds, Offset};
-use hexdel_geom::AngleBounds;
 use hexdel_grid::Window;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -341,13 +340,12 @@ impl Plan {
         })
     }
 
-    /// The angles of a triangle that are beyond the bounds.
+    /// The angles of a triangle that are beyond the bounds, exactly: of a triangle
+    /// that does not hold there is always one.
     fn broken_angles(&self, subdivided: Window, t: &LocalTriangle) -> impl Iterator<Item = Witness> + use<> {
-        let bounds = AngleBounds::EXTENDED;
-        let outside = move |w: &Witness| {
-            w.angle_deg < bounds.min_deg() - SAME_DEG || w.angle_deg > bounds.max_deg() + SAME_DEG
-        };
-        self.witnesses(subdivided, t).into_iter().filter(outside)
+        let [a, b, c] = t.corners;
+        let holds = [(a, b, c), (b, c, a), (c, a, b)].map(|(a, b, c)| ExactBounds::EXTENDED.hold_at(a, b, c));
+        self.witnesses(subdivided, t).into_iter().filter(move |w| !holds[w.corner])
     }
 }
 

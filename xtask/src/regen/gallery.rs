@@ -144,8 +144,8 @@ What random points and what letters the paper has is not published: these are li
 `cargo xtask regen` makes this page and its pictures. One by one they come from
 
 ```sh
-hexdel mesh fixtures/points/plane100.node -o out/plane.png --histogram --size 600 --method templates
-hexdel mesh fixtures/points/plane100.node -o out/plane.svg --histogram --size 600 --method compact
+hexdel mesh fixtures/points/plane100.node -o out/plane.png --histogram --pixels 600 --method templates
+hexdel mesh fixtures/points/plane100.node -o out/plane.svg --histogram --pixels 600 --method compact
 ```
 
 More pictures: triangles by their largest angle, region, level or class, the hexagons behind a mesh, any box of it;

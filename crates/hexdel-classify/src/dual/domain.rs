@@ -28,6 +28,13 @@ impl Domain {
         Window::FULL.iter().filter(|&at| (first + at).norm() <= radius).collect()
     }
 
+    /// Whether nothing in a tile of the base level touches the rim.
+    pub(super) fn holds(self, grid: &Grid, id: TileId) -> bool {
+        let first = grid.tiles().get(self.base_level, id).first();
+        let radius = u64::from(self.radius);
+        busy(grid, self.base_level, id).iter().all(|at| (first + at).norm() < radius)
+    }
+
     /// Steps from the centre to a corner that a patch may have, for three
     /// million triangles of padding.
     pub const MAX_RADIUS: u32 = 768;

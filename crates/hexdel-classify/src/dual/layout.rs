@@ -23,7 +23,10 @@ pub(super) struct Block {
     /// The `MovedCenter3`: stars replace the lattice triangles at them. None
     /// without templates.
     pub(super) three: u64,
-    /// Id of the vertex at the lowest bit; the others follow in bit order.
+    /// The places that have an id, whether they are vertices or not: exactly
+    /// the vertices in a mesh made at once, all in one that is kept.
+    pub(super) numbered: u64,
+    /// Id of the lowest of them; the others follow in bit order.
     pub(super) first_vertex: u32,
     /// Triangles owned: lattice triangles by their lowest corner, stars by
     /// their centre.
@@ -35,8 +38,14 @@ impl Block {
     #[inline]
     pub(super) fn vertex(&self, bit: u32) -> VertexId {
         debug_assert!(self.vertices >> bit & 1 == 1, "no vertex at bit {bit}");
-        let rank = (self.vertices & ((1 << bit) - 1)).count_ones();
-        VertexId::new((self.first_vertex + rank) as usize)
+        let before = (self.numbered & ((1 << bit) - 1)).count_ones();
+        VertexId::new((self.first_vertex + before) as usize)
+    }
+
+    /// How many vertices of the tile come before the one at bit `bit`.
+    #[inline]
+    pub(super) fn rank(&self, bit: u32) -> usize {
+        (self.vertices & ((1 << bit) - 1)).count_ones() as usize
     }
 }
 
@@ -68,6 +77,7 @@ impl<'a> Layout<'a> {
             for (block, walked) in layout.blocks[level].iter_mut().zip(walked) {
                 block.triangles += walked;
                 block.first_vertex = layout.vertex_count as u32;
+                block.numbered = block.vertices;
                 layout.vertex_count += u64::from(block.vertices.count_ones());
                 layout.triangle_count += u64::from(block.triangles);
             }
@@ -76,6 +86,15 @@ impl<'a> Layout<'a> {
             return Err(DualError::TooManyVertices { count: layout.vertex_count });
         }
         Ok(layout)
+    }
+
+    /// The layout of blocks whose ids are given already.
+    pub(super) fn of(grid: &'a Grid, blocks: Vec<Vec<Block>>) -> Self {
+        Self { grid, blocks, vertex_count: 0, triangle_count: 0 }
+    }
+
+    pub(super) fn into_blocks(self) -> Vec<Vec<Block>> {
+        self.blocks
     }
 
     /// How many triangles the mesh has.
@@ -99,6 +118,11 @@ impl<'a> Layout<'a> {
     #[inline]
     pub(super) fn block(&self, level: u8, id: TileId) -> &Block {
         &self.blocks[usize::from(level)][id.index()]
+    }
+
+    /// The same, for a tile that may lie below the finest level of the mesh.
+    pub(super) fn block_if_any(&self, level: u8, id: TileId) -> Option<&Block> {
+        self.blocks.get(usize::from(level))?.get(id.index())
     }
 
     /// The lattice triangles that a tile owns, pointing up and down.
@@ -172,7 +196,7 @@ impl Walk {
 /// The blocks of all tiles, lattice triangles not counted yet.
 ///
 /// Goes down the levels: what exists in a tile follows from the one above it.
-fn surveyed(grid: &mut Grid, domain: Domain, templates: bool) -> Vec<Vec<Block>> {
+pub(super) fn surveyed(grid: &mut Grid, domain: Domain, templates: bool) -> Vec<Vec<Block>> {
     let mut blocks = vec![Vec::new(); usize::from(domain.base_level)];
     let mut level = domain.base_level;
     let mut current = patch(grid, domain);
@@ -216,7 +240,13 @@ fn patch(grid: &mut Grid, domain: Domain) -> Vec<Block> {
 
 /// Completes a tile's block, of which `exists` and the inserted vertices are
 /// known, and returns what exists one level finer.
-fn survey(grid: &Grid, level: u8, id: TileId, block: &mut Block, templates: bool) -> Option<Brood> {
+pub(super) fn survey(
+    grid: &Grid,
+    level: u8,
+    id: TileId,
+    block: &mut Block,
+    templates: bool,
+) -> Option<Brood> {
     let tiles = grid.tiles();
     block.vertices |= block.exists & !tiles.get(level, id).subdivided;
     let subdivided = tiles.window(level, id, |t| t.subdivided);

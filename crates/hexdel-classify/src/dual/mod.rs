@@ -26,11 +26,13 @@
 //! | [`vertices`] | coordinates |
 //! | [`triangles`] | index triples |
 //! | [`star`] | the triangles around a three-finned hexagon |
+//! | [`kept`] | a mesh that is kept tile by tile while the grid changes |
 //! | [`local`] | the triangles around one place, in exact coordinates |
 
 mod brood;
 pub mod domain;
 mod fill;
+pub mod kept;
 pub mod layout;
 pub mod local;
 pub mod star;
@@ -38,6 +40,7 @@ pub mod triangles;
 pub mod vertices;
 
 pub use domain::Domain;
+pub use kept::{KeptDual, Touched};
 pub use layout::Layout;
 
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};

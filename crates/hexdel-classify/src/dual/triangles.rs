@@ -1,11 +1,11 @@
 //! Index triples.
 
-use super::layout::{Layout, Walk};
+use super::layout::{Block, Layout, Walk};
 use super::star::{self, Corners, Star};
-use hexdel_geom::VertexId;
 use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Hex, TileId};
+use std::cell::OnceCell;
 
 /// Emits the triangles that a tile owns.
 pub(super) fn fill_tile(layout: &Layout, level: u8, id: TileId, out: &mut [[u32; 3]]) {
@@ -14,10 +14,11 @@ pub(super) fn fill_tile(layout: &Layout, level: u8, id: TileId, out: &mut [[u32;
     }
     let tile = OwnerTile::new(layout, level, id);
     let mut out = Emitter { out, count: 0 };
-    for walk in layout.walks(level, id) {
-        emit_whole(&tile, &walk, &mut out);
-        emit_split(&tile, &walk, &mut out);
-    }
+    let [up, down] = layout.walks(level, id);
+    emit_whole::<false>(&tile, &up, &mut out);
+    emit_split(&tile, &up, &mut out);
+    emit_whole::<true>(&tile, &down, &mut out);
+    emit_split(&tile, &down, &mut out);
     let three = layout.block(level, id).three;
     if three != 0 {
         let subdivided = layout.grid.tiles().window(level, id, |t| t.subdivided);
@@ -44,12 +45,13 @@ impl Emitter<'_> {
 }
 
 /// Lattice triangles with at most one subdivided corner.
-fn emit_whole(tile: &OwnerTile, walk: &Walk, out: &mut Emitter) {
-    let (second, third) = if walk.down { (ROW, ROW - 1) } else { (1, ROW) };
+fn emit_whole<const DOWN: bool>(tile: &OwnerTile, walk: &Walk, out: &mut Emitter) {
+    let (second, third) = const { if DOWN { (ROW, ROW - 1) } else { (1, ROW) } };
     for bit in ones(walk.whole) {
-        let i = place(hex_of(bit));
+        // Where `hex_of(bit)` is kept: rows are twice as long as the tile's.
+        let i = (bit + (bit & 0x38)) as usize + ROW + 1;
         let mut corners = [tile.ids[i], tile.ids[i + second], tile.ids[i + third]];
-        if corners.contains(&NONE) {
+        if corners[0].max(corners[1]).max(corners[2]) == NONE {
             let h = hex_of(bit);
             let at = [h, h.neighbour(walk.second()), h.neighbour(walk.third())];
             for (corner, at) in corners.iter_mut().zip(at).filter(|(corner, _)| **corner == NONE) {
@@ -94,6 +96,9 @@ struct OwnerTile<'a> {
     /// The vertices of the tile and of one hexagon around it; [`NONE`] where
     /// there is none. Vertices inserted on semi-hexagons are there, too.
     ids: [u32; 10 * ROW],
+    /// The blocks one level finer, under the tile and beside them, row by row;
+    /// found when they are first asked for.
+    finer: OnceCell<[Option<&'a Block>; 16]>,
 }
 
 impl<'a> OwnerTile<'a> {
@@ -113,20 +118,23 @@ impl<'a> OwnerTile<'a> {
                 if seen == 0 {
                     continue;
                 }
-                if column == 0 {
-                    // Whole rows: one rank is enough.
-                    let first = block.vertex(seen.trailing_zeros()).index() as u32;
-                    for (bit, vertex) in ones(seen).zip(first..) {
-                        ids[place(corner + hex_of(bit))] = vertex;
-                    }
-                } else {
-                    for bit in ones(seen) {
-                        ids[place(corner + hex_of(bit))] = block.vertex(bit).index() as u32;
-                    }
+                for bit in ones(seen) {
+                    ids[place(corner + hex_of(bit))] = block.vertex(bit).index() as u32;
                 }
             }
         }
-        Self { layout, level, id, ids }
+        Self { layout, level, id, ids, finer: OnceCell::new() }
+    }
+
+    fn finer_blocks(&self) -> [Option<&'a Block>; 16] {
+        let tiles = self.layout.grid.tiles();
+        std::array::from_fn(|i| {
+            // From the tile before the first under this one on.
+            let (column, row) = (i as i64 % 4 - 1, i as i64 / 4 - 1);
+            let coarse = tiles.beside(self.level, self.id, column >> 1, row >> 1)?;
+            let child = tiles.child(self.level, coarse, (2 * (row & 1) + (column & 1)) as usize)?;
+            self.layout.block_if_any(self.level + 1, child)
+        })
     }
 }
 
@@ -138,15 +146,9 @@ impl Corners for OwnerTile<'_> {
 
     #[inline]
     fn finer(&self, at: Hex) -> u32 {
-        let tiles = self.layout.grid.tiles();
-        let coarse = Hex::new(at.q >> 1, at.r >> 1);
-        let quadrant = (coarse.r >> 2 & 1) * 2 + (coarse.q >> 2 & 1);
-        let child = tiles
-            .beside(self.level, self.id, coarse.q >> 3, coarse.r >> 3)
-            .and_then(|tile| tiles.child(self.level, tile, quadrant as usize))
-            .expect("finer corners of triangles lie in tiles");
+        let blocks = self.finer.get_or_init(|| self.finer_blocks());
+        let block = blocks[(4 * ((at.r >> 3) + 1) + (at.q >> 3) + 1) as usize];
         let bit = 8 * (at.r & 7) + (at.q & 7);
-        let vertex: VertexId = self.layout.block(self.level + 1, child).vertex(bit as u32);
-        vertex.index() as u32
+        block.expect("finer corners of triangles lie in tiles").vertex(bit as u32).index() as u32
     }
 }

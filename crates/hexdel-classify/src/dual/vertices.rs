@@ -37,7 +37,7 @@ pub(super) fn fill_tile(layout: &Layout, level: u8, id: TileId, out: &mut [[f64;
 
 /// The place of a vertex in its tile's part of the array.
 fn place_of<'a>(block: &Block, bit: u32, out: &'a mut [[f64; 2]]) -> &'a mut [f64; 2] {
-    &mut out[block.vertex(bit).index() - block.first_vertex as usize]
+    &mut out[block.rank(bit)]
 }
 
 /// Says where the points lie that are inserted at some bits of a tile, relative
@@ -56,9 +56,8 @@ fn fill_inserted(
     for bit in ones(inserted) {
         let (a, b) = (first - coarser.scaled() + hex_of(bit)).parents();
         let b = b.expect("a semi-hexagon has two parents");
-        let (hex, p) = [(a, b), (b, a)]
-            .into_iter()
-            .find_map(|(hex, fin)| Some((hex, star::point_on_fin(subdivided, hex, fin)?)))
+        let (hex, fin) = if subdivided.contains(a) { (b, a) } else { (a, b) };
+        let p = star::point_on_fin(subdivided, hex, fin)
             .expect("a point lies on the fin of a three-finned hexagon");
         let scaled = Offset { q: 2 * p.q, r: 2 * p.r };
         put(bit, Offset::of((hex + coarser).scaled() - first) + scaled);
@@ -119,24 +118,39 @@ pub(super) fn place_occupants(
     relocation: Relocation,
     vertices: &mut [DVec2],
 ) -> Vec<VertexId> {
-    let mut of_occupant = Vec::with_capacity(occupants.len());
-    for some in occupants.chunks(OCCUPANTS_AT_ONCE) {
-        let look_up = |occupant| Moved::of(layout, occupant, relocation);
+    // Tile by tile, as vertices are numbered: points may come in any order.
+    let key = |(i, o): (usize, &Occupant)| (o.level, o.tile, i as u32);
+    let mut order: Vec<_> = occupants.par_iter().enumerate().map(key).collect();
+    order.par_sort_unstable();
+    let mut of_occupant = vec![VertexId::new(0); occupants.len()];
+    for some in order.chunks(OCCUPANTS_AT_ONCE) {
+        let look_up = |&(_, _, i): &(u8, TileId, u32)| Moved::of(layout, &occupants[i as usize], relocation);
         let found: Vec<_> = some.par_iter().map(look_up).collect();
-        for (moved, occupant) in found.into_iter().zip(some) {
-            vertices[moved.vertex.index()] = occupant.point;
+        for (moved, &(_, _, i)) in found.into_iter().zip(some) {
+            vertices[moved.vertex.index()] = moved.point;
             for (vertex, to) in moved.ring.into_iter().flatten() {
                 vertices[vertex.index()] = to;
             }
-            of_occupant.push(moved.vertex);
+            of_occupant[i as usize] = moved.vertex;
         }
     }
     of_occupant
 }
 
+/// The vertices that an input point moves, and where to.
+pub(super) fn moved_by(
+    layout: &Layout,
+    occupant: &Occupant,
+    relocation: Relocation,
+) -> impl Iterator<Item = (VertexId, DVec2)> {
+    let moved = Moved::of(layout, occupant, relocation);
+    std::iter::once((moved.vertex, occupant.point)).chain(moved.ring.into_iter().flatten())
+}
+
 /// The vertices that an input point moves.
 struct Moved {
     vertex: VertexId,
+    point: DVec2,
     /// The ring and where it goes, if it does.
     ring: Option<[(VertexId, DVec2); 6]>,
 }
@@ -153,7 +167,7 @@ impl Moved {
                 (vertex_beside(layout, level, id, at + d.step()), to)
             })
         });
-        Self { vertex: vertex_beside(layout, level, id, at), ring }
+        Self { vertex: vertex_beside(layout, level, id, at), point: occupant.point, ring }
     }
 }
 

@@ -26,7 +26,7 @@ pub(crate) use graph::Finished;
     mut_arg("colour", |arg| arg.hide(true)),
     mut_arg("histogram", |arg| arg.hide(true)),
     mut_arg("zoom", |arg| arg.hide(true)),
-    mut_arg("size", |arg| arg.hide(true)),
+    mut_arg("size", |arg| arg.hide(true).long("pixels")),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
 Input: .node .poly .csv .tsv .xyz .txt .geojson .wkt .json .ron, - with --format
@@ -67,7 +67,8 @@ pub(crate) struct Args {
     #[arg(short = 'a', long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
     max_area: Option<f64>,
     /// Longest edge, of a mesh of points
-    #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long = "size", alias = "max-edge", value_name = "H", value_parser = positive)]
+    #[arg(allow_negative_numbers = true)]
     max_edge: Option<f64>,
     /// The same by place: a raster (.asc), or points with sizes (x y size)
     #[arg(long, value_name = "FILE")]

@@ -1,23 +1,27 @@
 //! `hexdel session`: commands from a pipe, each answered with a line of JSON.
 
 mod command;
+mod kept;
 
 use crate::exit::{Failure, Outcome, Verdict, print};
 use crate::outputs::{Content, Outputs};
 use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
 use hexdel::optimize::live::Delta;
-use hexdel::{Mesher, PointId, Session, Size};
-use hexdel_io::{MeshView, write_mesh};
+use hexdel::{PointId, Size};
+use hexdel_io::{MarkedEdge, MeshView, write_mesh};
+use kept::Kept;
 use serde_json::{Value, json};
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
 
 /// Change a mesh by commands from standard input, answered with lines of JSON
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    override_usage = "hexdel session [OPTIONS] [FILE TO OPEN]",
+    after_help = "\
     Commands:\n  \
-    open FILE                    begin with the points of a file\n  \
+    open FILE                    begin with the points of a file, or its graph\n  \
     domain X Y RADIUS            begin with an empty hexagon\n  \
     load FILE                    go on with a saved session\n  \
     insert X Y [X Y ..]          put points in, all or none\n  \
@@ -35,18 +39,41 @@ use std::path::{Path, PathBuf};
     An answer has \"ok\", and what changed by serial numbers or the \"error\"; after an error\n\
     the session is as it was. Exits with 2 if there was one.\n\n\
     Example:\n  \
-    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session")]
+    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session"
+)]
 pub(crate) struct Args {
+    /// The file to begin with, as by `open`
+    #[arg(hide = true)]
+    file: Option<PathBuf>,
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]
     brief: bool,
+    /// How meshes are made that a session begins with and goes on with; a loaded one goes on as it was
+    #[arg(long, value_enum, default_value_t)]
+    method: SessionMethod,
+}
+
+/// The methods that sessions know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum SessionMethod {
+    /// Optimised: few triangles
+    #[default]
+    Compact,
+    /// The paper's templates: many triangles, a change in a millisecond, no sizes
+    Templates,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
-    let mut talk = Talk { session: None, brief: args.brief };
+    let mut talk =
+        Talk { session: None, brief: args.brief, templates: args.method == SessionMethod::Templates };
     let mut input = io::stdin().lock();
     let (mut line, mut failed) = (String::new(), 0);
+    if let Some(file) = &args.file {
+        let answer = talk.answer(Command::Open(file.clone())).map_err(|e| e.to_string());
+        failed += usize::from(answer.is_err());
+        tell(answer)?;
+    }
     loop {
         line.clear();
         let answer = match input.read_line(&mut line) {
@@ -62,38 +89,43 @@ pub(crate) fn run(args: &Args) -> Outcome {
             Err(error) => return Err(Failure::Stdin(error)),
         };
         failed += usize::from(answer.is_err());
-        let answer = answer.unwrap_or_else(|message| json!({ "ok": false, "error": message }));
-        print(&format!("{answer}\n"))?;
+        tell(answer)?;
     }
     if failed > 0 { Err(Failure::Commands { failed }) } else { Ok(Verdict::Holds) }
+}
+
+fn tell(answer: Result<Value, String>) -> Result<(), Failure> {
+    let answer = answer.unwrap_or_else(|message| json!({ "ok": false, "error": message }));
+    print(&format!("{answer}\n"))
 }
 
 /// Why a command was not done.
 type Refusal = Box<dyn std::error::Error>;
 
 struct Talk {
-    session: Option<Session>,
+    session: Option<Kept>,
     brief: bool,
+    templates: bool,
 }
 
 impl Talk {
     fn answer(&mut self, command: Command) -> Result<Value, Refusal> {
         match command {
             Command::Open(path) => {
-                let points = hexdel_io::read_points(&path)?.points;
-                self.begin(Session::new(&points, &Mesher::new())?)
+                let graph = hexdel_io::read_points(&path)?;
+                self.begin(Kept::open(&graph, self.templates)?)
             }
-            Command::Domain(centre, radius) => self.begin(Session::empty(centre, radius)?),
+            Command::Domain(centre, radius) => self.begin(Kept::empty(centre, radius, self.templates)?),
             Command::Load(path) => {
                 let text = std::fs::read_to_string(&path)
                     .map_err(|source| Failure::Output { file: path.clone(), source })?;
-                self.begin(Session::from_ron(&text)?)
+                self.begin(Kept::load(&text)?)
             }
             other => self.answer_in_session(other),
         }
     }
 
-    fn begin(&mut self, session: Session) -> Result<Value, Refusal> {
+    fn begin(&mut self, session: Kept) -> Result<Value, Refusal> {
         self.session = Some(session);
         self.answer_in_session(Command::Counts)
     }
@@ -106,16 +138,19 @@ impl Talk {
             Command::InsertFile(path) => session.insert_all(&hexdel_io::read_points(&path)?.points)?,
             Command::Remove(ids) => session.remove(&ids.into_iter().map(PointId).collect::<Vec<_>>())?,
             Command::Size(size) => {
-                let size = changed(session.size().cloned(), size)?;
+                let size = changed(session.compact()?.size().cloned(), size)?;
                 session.set_size(size)?
             }
-            Command::Refine(a, b, halvings) => session.refine_box(a, b, halvings)?,
+            Command::Refine(a, b, halvings) => session.compact()?.refine_box(a, b, halvings)?,
             Command::Grow => session.grow()?,
             Command::Undo => session.undo()?,
             Command::Points => return Ok(points(session)),
             Command::Certify => {
-                let certificate = session.certificate();
-                return Ok(json!({ "ok": true, "holds": certificate.holds(), "certificate": certificate }));
+                let check = session.check();
+                return Ok(json!({
+                    "ok": true, "holds": check.holds(), "certificate": check.certificate,
+                    "segments_missing": check.segments.missing.len(),
+                }));
             }
             Command::Mesh(path) => return write(session, &path),
             Command::Save(path) => return save(session, &path),
@@ -129,7 +164,7 @@ impl Talk {
     }
 }
 
-fn counts(session: &Session) -> Value {
+fn counts(session: &Kept) -> Value {
     let [points, vertices, triangles] = session.counts();
     let (centre, radius) = session.domain();
     json!({
@@ -138,8 +173,8 @@ fn counts(session: &Session) -> Value {
     })
 }
 
-fn points(session: &Session) -> Value {
-    let all: Vec<Value> = session.points().map(|(id, at)| json!([id.0, at.x, at.y])).collect();
+fn points(session: &Kept) -> Value {
+    let all: Vec<Value> = session.points().into_iter().map(|(id, at)| json!([id.0, at.x, at.y])).collect();
     json!({ "ok": true, "points": all })
 }
 
@@ -167,7 +202,7 @@ fn changed(size: Option<Size>, command: SizeCommand) -> Result<Option<Size>, Ref
     }))
 }
 
-fn write(session: &Session, path: &Path) -> Result<Value, Refusal> {
+fn write(session: &Kept, path: &Path) -> Result<Value, Refusal> {
     let mut outputs = Outputs::default();
     outputs.add_mesh(path)?;
     let made = session.mesh();
@@ -176,12 +211,21 @@ fn write(session: &Session, path: &Path) -> Result<Value, Refusal> {
         inputs[v.index()] = u32::try_from(id.0).ok();
     }
     let certificate = session.certificate();
-    let view = MeshView::new(&made.mesh).with_input_indices(&inputs).with_certificate(&certificate);
+    let mut view = MeshView::new(&made.mesh).with_input_indices(&inputs).with_certificate(&certificate);
+    let edges: Vec<MarkedEdge> =
+        made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
+    let regions = session.region_attributes(&made);
+    if !edges.is_empty() {
+        view = view.with_marked_edges(&edges).with_vertex_markers(&made.vertex_markers);
+    }
+    if regions.iter().any(|a| *a != 0.0) {
+        view = view.with_regions(&regions);
+    }
     outputs.write(|_, path| Ok(write_mesh(path, &view)?))?;
     Ok(written(path))
 }
 
-fn save(session: &Session, path: &Path) -> Result<Value, Refusal> {
+fn save(session: &Kept, path: &Path) -> Result<Value, Refusal> {
     let text = session.to_ron()?;
     let mut outputs = Outputs::default();
     outputs.add_text(path)?;

@@ -102,3 +102,23 @@ fn what_is_lost_is_said_and_what_cannot_be_is_refused() {
     bench.run("convert bad.obj bad.vtu").refused("bad.obj:2: no point 3");
     assert_eq!(bench.names(), ["bad.obj", "m.json", "m.off", "p.csv"]);
 }
+
+#[test]
+fn tables_are_what_their_names_say_and_losses_are_told() {
+    let bench = Bench::new();
+    bench.file("a.node", "2 2 1 1\n0 0.5 1 7 3\n1 2 3 8 4\n");
+    for (arguments, expected) in [
+        ("a.node - --format csv", "x,y\n0.5,1.0\n2.0,3.0\n"),
+        ("a.node - --format tsv", "x\ty\n0.5\t1.0\n2.0\t3.0\n"),
+        ("a.node - --format xyz", "0.5 1.0\n2.0 3.0\n"),
+    ] {
+        let run = bench.run(&format!("convert {arguments}"));
+        assert_eq!(run.out, expected);
+        assert!(run.err.contains("the format has no point markers, point attributes"), "{}", run.err);
+    }
+    bench.run("convert a.node b.csv --format tsv");
+    assert_eq!(bench.read("b.csv"), b"x\ty\n0.5\t1.0\n2.0\t3.0\n");
+    bench.file("m.obj", OBJ);
+    bench.run("convert m.obj m.ele --format node").fine();
+    assert!(bench.read("m.node").starts_with(b"3 2 0 0\n"));
+}

@@ -57,7 +57,7 @@ fn mesh_draws_levels_and_classes() {
     assert!(simple.contains(">occupied<") && !simple.contains("moved"));
     assert!(picture("--method simple --histogram").contains("square root"));
     assert!(picture("--method compact --effort fast --grid").contains(">hexagons<"));
-    bench.run(&format!("mesh {input} -q --method simple -o p.png --size 64 --zoom 0,0,1,1")).fine();
+    bench.run(&format!("mesh {input} -q --method simple -o p.png --pixels 64 --zoom 0,0,1,1")).fine();
     assert!(bench.read("p.png").starts_with(b"\x89PNG"));
 }
 

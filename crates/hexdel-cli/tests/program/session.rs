@@ -41,6 +41,40 @@ fn each_command_has_an_answer() {
 }
 
 #[test]
+fn a_graph_is_opened_with_its_segments() {
+    let bench = Bench::new();
+    bench.file("s.poly", "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 1\n1 1 2 5\n2 2 3 5\n3 3 4 5\n4 4 1 6\n0\n");
+    let commands = "insert .5 .5 .25 0\nremove 4\nremove 0\ninsert 2 2\ncertify\nmesh m.vtu\nsave s.ron\n";
+    let (answers, code) = talk(&bench, "session s.poly", commands);
+    assert_eq!((answers.len(), code), (8, 2), "{answers:?}");
+    let ok: Vec<bool> = answers.iter().map(|a| a["ok"] == true).collect();
+    assert_eq!(ok, [true, true, true, false, false, true, true, true], "{answers:?}");
+    assert_eq!(answers[1]["points_inserted"], serde_json::json!([4, 5]));
+    assert!(answers[3]["error"].as_str().unwrap().contains("end of a segment"));
+    assert_eq!(answers[5]["holds"], true);
+    let (answers, code) = talk(&bench, "session --brief none.poly", "load s.ron\ninsert .3 .3\n");
+    assert_eq!((answers[0]["ok"] == true, answers[2]["ok"] == true, code), (false, true, 2), "{answers:?}");
+}
+
+#[test]
+fn sessions_of_templates_answer_the_same_commands() {
+    let bench = Bench::new();
+    let commands = "domain 0 0 1\ninsert .1 .2 .3 .1\nremove 0\nundo\nmesh m.vtu\ncertify\nsave s.ron\n";
+    let (answers, code) = talk(&bench, "session --method templates", commands);
+    assert_eq!((answers.len(), code), (7, 0), "{answers:?}");
+    let added = answers[1]["delta"]["triangles_added"].as_array().unwrap().len();
+    assert!(0 < added && answers[5]["holds"] == true);
+    bench.run("check m.vtu").fine();
+
+    // A saved session goes on by its own method.
+    let (answers, code) = talk(&bench, "session --brief", "load s.ron\ninsert .5 .5\nsize .1\n");
+    assert_eq!((answers.len(), code), (3, 2), "{answers:?}");
+    assert_eq!(answers[1]["points_inserted"], serde_json::json!([2]));
+    assert!(answers[1]["delta"]["triangles_added"].as_u64().unwrap() > 0);
+    assert!(answers[2]["error"].as_str().unwrap().contains("know no sizes"));
+}
+
+#[test]
 fn a_bad_command_is_answered_and_changes_nothing() {
     let bench = Bench::new();
     bench.file("points.csv", "0,0\n1,0\n0,1\n");
@@ -80,14 +114,18 @@ fn edges_are_as_short_as_options_and_files_want() {
     bench.file("points.csv", "0,0\n1,0\n0,1\n");
     bench.file("sizes.txt", "# x y size\n.5 .5 .02\n");
     bench.file("sizes.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n.1 .3\n");
-    for options in
-        ["--max-edge .1", "--size-file sizes.txt", "--size-file sizes.asc --max-edge .2", "--max-area .01"]
-    {
+    for options in [
+        "--size .1",
+        "--max-edge .1",
+        "--size-file sizes.txt",
+        "--size-file sizes.asc --max-edge .2",
+        "--max-area .01",
+    ] {
         bench.run(&format!("mesh points.csv --report r.json -q {options}")).fine();
         let report = bench.json("r.json");
         assert!(report["size_ratio"].as_f64().is_some_and(|r| r <= 1.0 + 1e-9), "{options}: {report}");
     }
-    bench.run("mesh points.csv --report r.json --max-edge 0").refused("positive");
+    bench.run("mesh points.csv --report r.json --size 0").refused("positive");
     bench.run("mesh points.csv --report r.json --max-edge 1e-14").refused("resolve");
     bench.run("mesh points.csv --report r.json --size-file none.asc").refused("none.asc");
     bench.file("sizes.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n.1 0\n");

@@ -52,7 +52,7 @@ use crate::bounds::AngleBounds;
 use crate::mesh::{TriMesh, TriangleId, VertexId};
 use crate::scale::{max_abs, scale_to};
 
-pub use local::keeps_bounds;
+pub use local::{keeps_bounds, keeps_bounds_at};
 
 /// An angle within this many degrees of a bound is within the bound.
 ///

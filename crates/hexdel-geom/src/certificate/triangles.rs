@@ -295,11 +295,17 @@ pub(crate) enum Fit {
 
 /// Holds the angles of a counter-clockwise triangle against the bounds.
 pub(crate) fn check_angles(corners: [DVec2; 3], bounds: AngleBounds) -> Fit {
+    check_angles_at(corners, bounds, [true; 3])
+}
+
+/// The same where the lower bound counts at some corners only.
+pub(crate) fn check_angles_at(corners: [DVec2; 3], bounds: AngleBounds, lower: [bool; 3]) -> Fit {
     let angles = angles_deg(corners);
     let mut limited: f64 = 0.0;
     let mut outside: Option<(f64, usize)> = None;
     for (i, angle) in angles.into_iter().enumerate() {
-        let excess = (bounds.min_deg() - angle).max(angle - bounds.max_deg());
+        let low = if lower[i] { bounds.min_deg() } else { 0.0 };
+        let excess = (low - angle).max(angle - bounds.max_deg());
         if excess <= ANGLE_TOLERANCE_DEG {
             continue;
         }

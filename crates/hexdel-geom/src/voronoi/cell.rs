@@ -18,7 +18,7 @@ use glam::DVec2;
 /// has: the angle opposite is obtuse.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leak {
-    triangle: TriangleId,
+    pub(super) triangle: TriangleId,
     /// The edge, with the mesh on its left.
     line: [DVec2; 2],
 }
@@ -39,8 +39,7 @@ impl Leak {
 /// The fan's triangles in counter-clockwise order, from the boundary on if
 /// there is one.
 pub(super) fn walk(fan: &Fan) -> impl Iterator<Item = usize> {
-    let has_predecessor = |i: usize| fan.successor.contains(&(i as u32));
-    let start = (0..fan.len()).find(|&i| !has_predecessor(i)).unwrap_or(0);
+    let start = fan.start();
     let mut at = start;
     (0..fan.len()).map(move |_| {
         let i = at;
@@ -71,8 +70,8 @@ impl Voronoi<'_> {
     ///
     /// # Complexity
     ///
-    /// Linear in the number of its corners, times the obtuse angles among its
-    /// triangles.
+    /// Linear in the number of its corners, times the obtuse angles opposite the
+    /// boundary among its triangles, of which each is looked up among all.
     ///
     /// # Examples
     ///
@@ -117,8 +116,9 @@ impl Voronoi<'_> {
                 corners.push(middle);
             }
         }
-        for leak in self.leaks.iter().filter(|l| fan.triangles.contains(&(l.triangle.index() as u32))) {
-            corners = clip(&corners, leak.line);
+        let leak = |t: &u32| self.leaks.binary_search_by_key(&(*t as usize), |leak| leak.triangle.index());
+        for at in fan.triangles.iter().filter_map(|t| leak(t).ok()) {
+            corners = clip(&corners, self.leaks[at].line);
         }
         corners
     }

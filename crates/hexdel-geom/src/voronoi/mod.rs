@@ -115,7 +115,8 @@ pub struct Voronoi<'a> {
     /// For each vertex the area of its cell, square input units. They sum to
     /// the area of the mesh.
     pub areas: Vec<f64>,
-    /// Circumcentres that lie beyond an edge of the boundary, by triangle.
+    /// Circumcentres that lie beyond an edge of the boundary, by triangle: one
+    /// has one obtuse angle at most.
     leaks: Vec<Leak>,
 }
 
@@ -168,7 +169,8 @@ impl<'a> Voronoi<'a> {
                 areas[end.index()] += quarter;
             }
         }
-        let leaks = edges.iter().filter_map(|edge| Leak::at(mesh, edge)).collect();
+        let mut leaks: Vec<Leak> = edges.iter().filter_map(|edge| Leak::at(mesh, edge)).collect();
+        leaks.sort_unstable_by_key(|leak| leak.triangle.index());
         Ok(Self { mesh, incidence, circumcentres, edges, areas, leaks })
     }
 

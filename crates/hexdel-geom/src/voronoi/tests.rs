@@ -92,3 +92,18 @@ fn a_vertex_without_triangles_has_no_cell() {
     assert!(dual.cell(VertexId::new(3)).is_empty());
     assert_eq!(dual.areas[3], 0.0);
 }
+
+#[test]
+fn every_cell_along_a_strip_of_obtuse_angles_is_cut_off() {
+    // Flat triangles on a line, with their obtuse angles above.
+    let vertices = (0..=20).map(|i| (f64::from(i), if i % 2 == 0 { 0.0 } else { 0.25 }));
+    let triangles: Vec<[usize; 3]> =
+        (0..19).map(|i| if i % 2 == 0 { [i, i + 2, i + 1] } else { [i, i + 1, i + 2] }).collect();
+    let strip = mesh(&vertices.collect::<Vec<_>>(), &triangles);
+    let dual = Voronoi::new(&strip).unwrap();
+    assert_eq!(dual.leaks.len(), 19);
+    let cells: Vec<Vec<DVec2>> = (0..=20).map(|v| dual.cell(VertexId::new(v))).collect();
+    assert!(cells.iter().flatten().all(|p| (-1e-12..=0.25 + 1e-12).contains(&p.y)), "{cells:?}");
+    let total: f64 = cells.iter().map(|cell| area(cell)).sum();
+    assert!((total - 19.0 * 0.25).abs() < 1e-12, "{total}");
+}

@@ -51,31 +51,47 @@ impl Cut {
         vertices.dedup();
         let local = |v: u32| vertices.binary_search(&v).expect("every corner was collected") as u32;
         let tris: Vec<[u32; 3]> = triangles.iter().map(|&t| store.triangle(t).v.map(local)).collect();
-        let mut outside: Vec<u16> = vec![0; vertices.len()];
+        let mut outside: Vec<u32> = vec![0; vertices.len()];
         for (i, &v) in vertices.iter().enumerate() {
             store.around(v, |_| outside[i] += 1);
         }
         for &v in tris.iter().flatten() {
             outside[v as usize] -= 1;
         }
-        let motion = |(&v, &outside): (&u32, &u16)| {
+        let motion = |(&v, &outside): (&u32, &u32)| {
             if outside > 0 { Motion::Frozen } else { store.vertex(v).motion }
+        };
+        let around = if store.constrained {
+            let is_near = |(&v, &outside): (&u32, &u32)| outside > 0 && store.is_near(v);
+            Around {
+                source: vertices.iter().map(|&v| store.vertex(v).source).collect(),
+                near: vertices.iter().zip(&outside).map(is_near).collect(),
+                lines: store.lines.clone(),
+            }
+        } else {
+            Around::default()
         };
         let parts = Vertices {
             pos: vertices.iter().map(|&v| store.at(v)).collect(),
             motion: vertices.iter().zip(&outside).map(motion).collect(),
             sector: vertices.iter().map(|&v| store.vertex(v).sector).collect(),
             outside,
-            around: Around::default(),
+            around,
         };
+        let bound: Vec<u8> = triangles.iter().map(|&t| store.triangle(t).bound).collect();
         let failed = vertices.iter().map(|&v| store.vertex(v).failed).collect();
-        let mesh = Mesh::build(parts, &tris, &[]).expect("a part of a manifold is one but for its seam");
+        let mesh = Mesh::build(parts, &tris, &bound).expect("a part of a manifold is one but for its seam");
         Self { triangles, vertices, mesh, failed }
     }
 
     /// The part's name of a triangle slot.
     pub(crate) fn local_triangle(&self, t: u32) -> Option<u32> {
         self.triangles.binary_search(&t).ok().map(|i| i as u32)
+    }
+
+    /// The part's name of a vertex slot that is in it.
+    pub(crate) fn local_vertex(&self, v: u32) -> u32 {
+        self.vertices.binary_search(&v).expect("a vertex of the part") as u32
     }
 
     /// Whether another state of the part is a disk if the part was: triangles
@@ -97,8 +113,11 @@ impl Cut {
     /// `mesh`, `NONE` for those that are gone.
     pub(crate) fn put_back(&self, store: &mut Store, mesh: &Mesh, failed: &[u8]) -> Vec<u32> {
         let slots = self.put_vertices(store, mesh, failed);
-        let corners = |t: u32| mesh.tri[t as usize].v.map(|v| slots[v as usize]);
-        self.put_triangles(store, mesh.live().map(corners));
+        let triangle = |t: u32| {
+            let tri = mesh.tri[t as usize];
+            (tri.v.map(|v| slots[v as usize]), tri.bound)
+        };
+        self.put_triangles(store, mesh.live().map(triangle));
         self.free_dead(store, &slots);
         slots
     }
@@ -110,12 +129,33 @@ impl Cut {
             let old = *store.vertex(v);
             store.write_vertex(v, Vertex { at, ..old });
         }
-        self.put_triangles(store, mesh.triangles.iter().map(|t| t.map(|v| self.vertices[v.index()])));
+        let bound = self.bound_sides();
+        let triangle = |t: [u32; 3]| {
+            let on = |k: &usize| bound.binary_search(&sorted_pair(t[(k + 1) % 3], t[(k + 2) % 3])).is_ok();
+            (t.map(|v| self.vertices[v as usize]), (0..3).filter(on).map(|k| 1 << k).sum())
+        };
+        let triangles = mesh.triangles.iter().map(|t| triangle(t.map(|v| v.index() as u32)));
+        self.put_triangles(store, triangles);
     }
 
-    fn put_triangles(&self, store: &mut Store, new: impl Iterator<Item = [u32; 3]>) {
-        let old: Vec<([u32; 3], u32)> = sorted(self.triangles.iter().map(|&t| (store.triangle(t).v, t)));
-        let new: Vec<([u32; 3], u32)> = sorted(new.map(|v| (v, NONE)));
+    /// The part's sides on segments, by its names of their ends; sorted.
+    pub(crate) fn bound_sides(&self) -> Vec<[u32; 2]> {
+        let mut bound = Vec::new();
+        for tri in self.mesh.tri.iter().filter(|tri| tri.bound != 0) {
+            let sides = (0..3).filter(|&k| tri.is_bound(k));
+            bound.extend(sides.map(|k| sorted_pair(tri.v[(k + 1) % 3], tri.v[(k + 2) % 3])));
+        }
+        bound.sort_unstable();
+        bound
+    }
+
+    fn put_triangles(&self, store: &mut Store, new: impl Iterator<Item = ([u32; 3], u8)>) {
+        let known = |&t: &u32| {
+            let tri = store.triangle(t);
+            (tri.v, tri.bound, t)
+        };
+        let old = sorted(self.triangles.iter().map(known));
+        let new = sorted(new.map(|(v, bound)| (v, bound, NONE)));
         let outer = self.outer(store);
         let mut kept = Vec::with_capacity(new.len());
         let mut added = Vec::new();
@@ -128,20 +168,21 @@ impl Cut {
             };
             match order {
                 std::cmp::Ordering::Less => {
-                    store.free_triangle(old[i].1);
+                    store.free_triangle(old[i].2);
                     i += 1;
                 }
                 std::cmp::Ordering::Greater => {
-                    added.push(new[j].0);
+                    added.push((new[j].0, new[j].1));
                     j += 1;
                 }
                 std::cmp::Ordering::Equal => {
-                    kept.push(old[i].1);
+                    debug_assert_eq!(old[i].1, new[j].1, "a side is on a segment for good");
+                    kept.push(old[i].2);
                     (i, j) = (i + 1, j + 1);
                 }
             }
         }
-        kept.extend(added.into_iter().map(|v| store.add_triangle(v)));
+        kept.extend(added.into_iter().map(|(v, bound)| store.add_triangle(v, bound)));
         link(store, &kept, &outer);
     }
 
@@ -158,7 +199,8 @@ impl Cut {
                     let frozen = mesh.motion[i] == Motion::Frozen;
                     let motion = if frozen { old.motion } else { mesh.motion[i] };
                     let failed = if frozen { failed.min(old.failed) } else { failed };
-                    store.write_vertex(v, Vertex { at: mesh.pos[i], motion, failed, ..old });
+                    let source = mesh.source(i as u32);
+                    store.write_vertex(v, Vertex { at: mesh.pos[i], motion, failed, source, ..old });
                     v
                 }
                 None => store.add_vertex(Vertex {
@@ -167,6 +209,7 @@ impl Cut {
                     sector: mesh.sector[i],
                     anchor: NONE,
                     failed,
+                    source: mesh.source(i as u32),
                     serial: 0,
                 }),
             });
@@ -198,16 +241,24 @@ impl Cut {
     }
 }
 
+/// Corners, sides on segments, and slot.
+type Named = ([u32; 3], u8, u32);
+
 /// The corners of triangles from the lowest on, in order.
-fn sorted(triangles: impl Iterator<Item = ([u32; 3], u32)>) -> Vec<([u32; 3], u32)> {
-    let mut all: Vec<([u32; 3], u32)> = triangles
-        .map(|(v, t)| {
+fn sorted(triangles: impl Iterator<Item = Named>) -> Vec<Named> {
+    let mut all: Vec<Named> = triangles
+        .map(|(v, bound, t)| {
             let low = (0..3).min_by_key(|&k| v[k]).expect("three corners");
-            ([v[low], v[(low + 1) % 3], v[(low + 2) % 3]], t)
+            let turned = (bound >> low | bound << (3 - low)) & 0b111;
+            ([v[low], v[(low + 1) % 3], v[(low + 2) % 3]], turned, t)
         })
         .collect();
     all.sort_unstable();
     all
+}
+
+fn sorted_pair(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// Makes neighbours of triangles that share a side, with each other and with

@@ -13,7 +13,7 @@ use hexdel_geom::{DVec2, orient2d};
 use crate::angles::{Measure, Place};
 use crate::change::outline;
 use crate::constraints::Rules;
-use crate::decimate::{Pass, settle};
+use crate::decimate::{PATIENT, Pass, settle};
 use crate::live::cut::Cut;
 use crate::mesh::{Mesh, Motion, NONE};
 use crate::refill::{Refills, degree_cost};
@@ -52,8 +52,9 @@ enum Seat {
     Vertex(u32),
     /// The outline of these triangles is joined to the point.
     Disc(Vec<u32>),
-    /// A side of the rim, opposite this corner of the triangle, is split.
-    Rim(u32, usize),
+    /// A side of the rim or on a segment, opposite this corner of the triangle, is
+    /// split.
+    Side(u32, usize),
 }
 
 /// Triangles in a disc, at most: their outline has two corners more, and a
@@ -74,19 +75,29 @@ const ROUNDS: usize = 13;
 const SHAPE_WEIGHT: f64 = 0.1;
 
 /// How hard the neighbourhood of a new vertex is tried to be settled.
-const SETTLE: Pass = Pass { rings: 4, refills: 1, max_cost: 0.0, near: 0.1 };
+const SETTLE: Pass = Pass { rings: 4, refills: 1, max_cost: 0.0, near: 0.1, patience: PATIENT };
 
-/// Puts a vertex at `p`, which the part's triangle `t` holds, and gives its
-/// name in the part; none where no seat works out.
+/// Where a point lies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    /// A triangle that holds it.
+    pub(crate) triangle: u32,
+    /// The triangle's corner opposite the side it lies on, if that is on a
+    /// segment.
+    pub(crate) side: Option<usize>,
+}
+
+/// Puts a vertex at `p`, which lies where `spot` says by the part's names, and
+/// gives its name in the part; none where no seat works out.
 pub(crate) fn insert<'a>(
     cut: &Cut,
     tools: &'a Tools,
-    t: u32,
+    spot: Spot,
     p: DVec2,
     search: bool,
 ) -> Option<(Work<'a>, u32)> {
     let mut work = start(cut, tools);
-    let mut ranked = seats(&work, t, p);
+    let mut ranked = seats(&work, spot, p);
     ranked.truncate(SEATS);
     let mut tried: Vec<(f64, Seat)> = Vec::new();
     for (_, seat) in ranked {
@@ -102,9 +113,6 @@ pub(crate) fn insert<'a>(
         }
         tried.push((work.patch.state(work.rules).energy, seat));
         work.mesh.rollback();
-        if let Some(Seat::Vertex(v)) = tried.last().map(|t| &t.1) {
-            work.mesh.motion[*v as usize] = cut.mesh.motion[*v as usize];
-        }
     }
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     tried.truncate(if search { FINALISTS } else { 0 });
@@ -138,40 +146,43 @@ fn take(work: &mut Work, seat: &Seat, p: DVec2, verts: &mut Vec<u32>) -> Option<
     match seat {
         Seat::Vertex(v) => {
             work.mesh.ring(*v, &mut Vec::new(), verts);
-            work.mesh.set_pos(*v, p);
-            work.mesh.motion[*v as usize] = Motion::Fixed;
+            work.mesh.fix(*v, p);
             Some(*v)
         }
         Seat::Disc(disc) => {
             *verts = outline(&work.mesh, disc)?;
-            let v = work.mesh.add_vertex(p, Motion::Fixed, std::f64::consts::TAU);
+            let v = work.mesh.add_vertex(p, Motion::Free, std::f64::consts::TAU);
+            work.mesh.fix(v, p);
             let n = verts.len();
             let new: Vec<[u32; 3]> = (0..n).map(|i| [v, verts[i], verts[(i + 1) % n]]).collect();
             work.mesh.replace(disc, &new, &mut made);
             Some(v)
         }
-        Seat::Rim(t, k) => {
+        Seat::Side(t, k) => {
             let v = work.mesh.split_edge(*t, *k, &mut made)?;
-            work.mesh.set_pos(v, p);
-            work.mesh.motion[v as usize] = Motion::Fixed;
+            work.mesh.fix(v, p);
             work.mesh.ring(v, &mut Vec::new(), verts);
             Some(v)
         }
     }
 }
 
-/// The seats at triangle `t`, best first.
-fn seats(work: &Work, t: u32, p: DVec2) -> Vec<(f64, Seat)> {
+/// The seats at a spot, best first.
+fn seats(work: &Work, spot: Spot, p: DVec2) -> Vec<(f64, Seat)> {
     let mesh = &work.mesh;
+    let t = spot.triangle;
     let corners = mesh.tri[t as usize].v;
     let at = corners.map(|v| mesh.pos[v as usize]);
-    let on_rim = (0..3)
-        .find(|&k| mesh.tri[t as usize].n[k] == NONE && orient2d(at[(k + 1) % 3], at[(k + 2) % 3], p) == 0.0);
+    let on_rim = || {
+        (0..3).find(|&k| {
+            mesh.tri[t as usize].n[k] == NONE && orient2d(at[(k + 1) % 3], at[(k + 2) % 3], p) == 0.0
+        })
+    };
     let mut seats = Vec::new();
-    if let Some(k) = on_rim {
-        seats.push((0.0, Seat::Rim(t, k)));
+    if let Some(k) = spot.side.or_else(on_rim) {
+        seats.push((0.0, Seat::Side(t, k)));
         for v in [corners[(k + 1) % 3], corners[(k + 2) % 3]] {
-            if matches!(mesh.motion[v as usize], Motion::Along(_)) {
+            if matches!(mesh.motion[v as usize], Motion::Along(_) | Motion::On(_)) {
                 seats.push((vertex_cost(work, v, p), Seat::Vertex(v)));
             }
         }

@@ -6,10 +6,13 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | `answer` | the mesh, what a change did to it, and the way back |
 //! | `store` | slots, serial numbers, the journal |
 //! | `locate` | the triangle that holds a point |
 //! | `cut` | parts cut out and put back |
 //! | `insert` | a new fixed vertex |
+//! | `coarsen` | many vertices taken out at once |
+//! | `release` | a fixed vertex that becomes free |
 //! | `refine` | triangles cut in four |
 //! | `size` | edges made as short as wanted |
 //! | `save` | the state as data |
@@ -18,32 +21,35 @@
 //!
 //! Points, undo and files are left to the session in the crate `hexdel`.
 
+mod answer;
+mod coarsen;
 mod cut;
 mod insert;
 mod locate;
 mod refine;
+mod release;
 mod save;
 mod size;
 mod store;
 mod thin;
 mod verify;
 
-use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
-use serde::Serialize;
+use hexdel_geom::{AngleBounds, DVec2, TriMesh, keeps_bounds_at};
 use thiserror::Error;
 
-use crate::constraints::Rules;
+use crate::constraints::{Constraints, NOWHERE, POINT, Rules};
 use crate::error::OptimizeError;
 use crate::import::import;
-use crate::mesh::{Motion, NONE};
+use crate::mesh::Motion;
 use crate::options::VertexKind;
 use crate::refill::Refills;
 use cut::{Cut, rings};
-use insert::Tools;
+use insert::{Spot, Tools};
 use locate::Memory;
-use store::{Serials, Store, Undo, Vertex};
-use verify::Written;
+use store::{Serials, Store, Vertex};
+use verify::{Bounds, keeps_bounds_here};
 
+pub use answer::{Delta, SegmentSide, Snapshot, Step};
 pub use save::{LiveState, StateError};
 
 /// Why a change of a [`LiveMesh`] was not made. The mesh is as it was.
@@ -86,48 +92,13 @@ pub enum LiveError {
     },
 }
 
-/// What a change did to the mesh, by serial numbers, which are never used
-/// again. Ascending.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct Delta {
-    /// Vertices that are gone.
-    pub vertices_removed: Vec<u64>,
-    /// New vertices and their positions.
-    pub vertices_added: Vec<(u64, DVec2)>,
-    /// Vertices that are elsewhere now.
-    pub vertices_moved: Vec<(u64, DVec2)>,
-    /// Triangles that are gone.
-    pub triangles_removed: Vec<u64>,
-    /// New triangles and their corners, counter-clockwise.
-    pub triangles_added: Vec<(u64, [u64; 3])>,
-}
-
-/// The writes of one change, to take it back.
-#[derive(Clone, Debug)]
-pub struct Step(Vec<Undo>);
-
-/// A mesh of serial numbers, for those who keep a copy.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Snapshot {
-    /// The mesh.
-    pub mesh: TriMesh,
-    /// The serial number of each vertex.
-    pub vertex_serials: Vec<u64>,
-    /// The slot of each vertex.
-    pub vertex_slots: Vec<u32>,
-    /// The serial number of each triangle.
-    pub triangle_serials: Vec<u64>,
-}
-
 /// The mesh.
 #[derive(Clone, Debug)]
 pub struct LiveMesh {
     store: Store,
     memory: Memory,
     tools: Tools,
-    bounds: AngleBounds,
+    bounds: Bounds,
     /// Serial numbers given out when the last step ended.
     issued: Serials,
     /// Whether the serial numbers have been in use by a mesh that this one
@@ -138,13 +109,6 @@ pub struct LiveMesh {
 /// Rings of triangles around a change that are cut out with it: four of them
 /// move, the last one stays.
 const RINGS: usize = 5;
-
-/// Rounds of removals after one change, at most: each coarsens by half what is
-/// too fine.
-const MOST_THINNINGS: usize = 16;
-
-/// Sine of the turn up to which a rim goes straight on, as for a whole outline.
-const STRAIGHT: f64 = 1e-3;
 
 /// Rings that are refined where a point finds no room, in the order of trying:
 /// one is enough in nine of ten cases.
@@ -162,20 +126,51 @@ impl LiveMesh {
     ///
     /// An [`OptimizeError`] that names what is wrong with the mesh.
     pub fn new(mesh: TriMesh, kinds: &[VertexKind], bounds: AngleBounds) -> Result<Self, OptimizeError> {
-        let soup = import(mesh, kinds, None)?;
-        let mut store = Store::default();
-        for i in 0..soup.pos.len() {
-            let (at, motion, sector) = (soup.pos[i], soup.motion[i], soup.sector[i]);
-            store.add_vertex(Vertex { at, motion, sector, anchor: crate::mesh::NONE, failed: 0, serial: 0 });
-        }
-        let all: Vec<u32> = soup.tris.iter().map(|&v| store.add_triangle(v)).collect();
-        cut::link(&mut store, &all, &[]);
-        store.take_journal();
-        Ok(Self::of(store, bounds))
+        Self::taken(mesh, kinds, bounds, None)
     }
 
-    fn of(store: Store, bounds: AngleBounds) -> Self {
-        let tools = Tools { rules: Rules::new(bounds, None), refills: Refills::new(), sizing: None };
+    /// The same with segments. Of the constraints `segments`, `edges`, `points`,
+    /// `near` and `wedges` are kept to; every fixed vertex to come is one of
+    /// `points`.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new), and where the constraints name what is not there.
+    pub fn with_segments(
+        mesh: TriMesh,
+        kinds: &[VertexKind],
+        bounds: AngleBounds,
+        constraints: &Constraints<'_>,
+    ) -> Result<Self, OptimizeError> {
+        Self::taken(mesh, kinds, bounds, Some(constraints))
+    }
+
+    fn taken(
+        mesh: TriMesh,
+        kinds: &[VertexKind],
+        far: AngleBounds,
+        constraints: Option<&Constraints<'_>>,
+    ) -> Result<Self, OptimizeError> {
+        let soup = import(mesh, kinds, constraints)?;
+        let mut store = Store::default();
+        (store.constrained, store.lines) = (soup.is_constrained(), soup.lines.clone());
+        for i in 0..soup.pos.len() {
+            let (at, motion, sector) = (soup.pos[i], soup.motion[i], soup.sector[i]);
+            let source = soup.source.get(i).copied().unwrap_or(NOWHERE);
+            store.add_vertex(Vertex { at, motion, sector, source, ..Vertex::FREE });
+        }
+        let triangles = soup.tris.iter().zip(&soup.bound);
+        let all: Vec<u32> = triangles.map(|(&v, &bound)| store.add_triangle(v, bound)).collect();
+        cut::link(&mut store, &all, &[]);
+        store.take_journal();
+        let near = constraints.map_or(far, |c| c.near);
+        Ok(Self::of(store, Bounds { near, far }))
+    }
+
+    fn of(store: Store, bounds: Bounds) -> Self {
+        let constraints = Constraints { near: bounds.near, ..Constraints::default() };
+        let rules = Rules::new(bounds.far, store.constrained.then_some(&constraints));
+        let tools = Tools { rules, refills: Refills::new(), sizing: None };
         Self { memory: Memory::new(&store), issued: store.serials, store, tools, bounds, adopted: false }
     }
 
@@ -189,57 +184,34 @@ impl LiveMesh {
         self.store.at(slot)
     }
 
-    /// The mesh as it stands, in the order of slots.
-    ///
-    /// # Complexity
-    ///
-    /// Linear in the mesh.
-    pub fn snapshot(&self) -> Snapshot {
-        let slots: Vec<u32> = self.store.live_vertices().collect();
-        let mut name = vec![VertexId::new(0); self.store.vertices.len()];
-        for (i, &v) in slots.iter().enumerate() {
-            name[v as usize] = VertexId::new(i);
-        }
-        let live = || self.store.live_triangles().map(|t| self.store.triangle(t));
-        Snapshot {
-            mesh: TriMesh {
-                vertices: slots.iter().map(|&v| self.store.at(v)).collect(),
-                triangles: live().map(|t| t.v.map(|v| name[v as usize])).collect(),
-            },
-            vertex_serials: slots.iter().map(|&v| self.store.vertex(v).serial).collect(),
-            triangle_serials: live().map(|t| t.serial).collect(),
-            vertex_slots: slots,
-        }
-    }
-
     /// Puts a fixed vertex at `p` and returns its slot.
     ///
     /// # Errors
     ///
     /// [`LiveError`]; the mesh is then as it was.
     pub fn insert(&mut self, p: DVec2) -> Result<u32, LiveError> {
-        let t = self.locate(p)?;
-        let corner = self.store.triangle(t).v.into_iter().find(|&v| self.store.at(v) == p);
+        let spot = self.locate(p)?;
+        let corner = self.store.triangle(spot.triangle).v.into_iter().find(|&v| self.store.at(v) == p);
         if let Some(v) = corner {
             return self.pin(v, p);
         }
         let (mark, serials) = (self.store.mark(), self.store.serials);
         for _ in 0..MOST_REFINEMENTS {
-            let t = self.locate(p)?;
-            if let Some(v) = self.insert_at(t, p, mark, false) {
+            let spot = self.locate(p)?;
+            if let Some(v) = self.insert_at(spot, p, mark, false) {
                 return Ok(v);
             }
-            if !INNER_RINGS.into_iter().any(|inner| self.refine_around(t, inner)) {
+            if !INNER_RINGS.into_iter().any(|inner| self.refine_around(spot.triangle, inner)) {
                 break;
             }
         }
         self.reset(mark, serials);
-        let t = self.locate(p)?;
-        self.insert_at(t, p, mark, true).ok_or(LiveError::NoRoom { at: p })
+        let spot = self.locate(p)?;
+        self.insert_at(spot, p, mark, true).ok_or(LiveError::NoRoom { at: p })
     }
 
-    /// The triangle that holds `p`.
-    fn locate(&mut self, p: DVec2) -> Result<u32, LiveError> {
+    /// Where `p` lies.
+    fn locate(&mut self, p: DVec2) -> Result<Spot, LiveError> {
         if self.memory.is_outgrown(&self.store) {
             self.memory = Memory::new(&self.store);
         }
@@ -257,15 +229,18 @@ impl LiveMesh {
         if old.motion == Motion::Fixed {
             return Err(LiveError::Occupied { slot: v, at: p });
         }
-        self.store.write_vertex(v, Vertex { at: p, motion: Motion::Fixed, ..old });
+        let counts = self.store.constrained && old.source == NOWHERE;
+        let source = if counts { POINT } else { old.source };
+        self.store.write_vertex(v, Vertex { at: p, motion: Motion::Fixed, source, ..old });
         Ok(v)
     }
 
     /// Refines so many rings around triangle `t`; false, and nothing done, where
     /// what surrounds them cannot be brought inside the bounds.
     fn refine_around(&mut self, t: u32, inner: usize) -> bool {
-        let inside = rings(&self.store, &[t], inner);
+        let mut inside = rings(&self.store, &[t], inner);
         let cut = Cut::new(&self.store, rings(&self.store, &inside, RINGS));
+        inside.retain(|&t| !self.is_exempt(t));
         let marks: Vec<bool> = cut.triangles.iter().map(|t| inside.binary_search(t).is_ok()).collect();
         match refine::refine(&cut, &self.tools, &marks) {
             Some(work) if cut.keeps_disk(&work.mesh) => {
@@ -276,12 +251,19 @@ impl LiveMesh {
         }
     }
 
-    /// Makes room for `p` in triangle `t`; everything that changed since `mark`
+    /// Whether a triangle is within its bounds for no other reason than the angle
+    /// between segments. Its quarters would not be.
+    fn is_exempt(&self, t: u32) -> bool {
+        self.store.constrained && !keeps_bounds_at(self.store.corners(t), self.bounds.near, [true; 3])
+    }
+
+    /// Makes room for `p` where it lies; everything that changed since `mark`
     /// holds if that succeeds, and nothing is done if not.
-    fn insert_at(&mut self, t: u32, p: DVec2, mark: usize, search: bool) -> Option<u32> {
+    fn insert_at(&mut self, spot: Spot, p: DVec2, mark: usize, search: bool) -> Option<u32> {
         let (before, serials) = (self.store.mark(), self.store.serials);
-        let cut = Cut::new(&self.store, rings(&self.store, &[t], RINGS));
-        let (work, vertex) = insert::insert(&cut, &self.tools, cut.local_triangle(t)?, p, search)?;
+        let cut = Cut::new(&self.store, rings(&self.store, &[spot.triangle], RINGS));
+        let there = Spot { triangle: cut.local_triangle(spot.triangle)?, ..spot };
+        let (work, vertex) = insert::insert(&cut, &self.tools, there, p, search)?;
         if cut.keeps_disk(&work.mesh) {
             let v = cut.put_back(&mut self.store, &work.mesh, &work.failed)[vertex as usize];
             thin::thin(&mut self.store, &self.tools, v, p);
@@ -294,82 +276,42 @@ impl LiveMesh {
         None
     }
 
-    /// Gives a fixed vertex free, and removes what has become superfluous
-    /// around it, most of the time with the vertex itself. A corner of the
-    /// domain stays.
+    /// The bounds that every angle keeps, of triangles near segments and points
+    /// of a graph and of all others.
+    pub fn bounds(&self) -> [AngleBounds; 2] {
+        [self.bounds.near, self.bounds.far]
+    }
+
+    /// The ends of each segment.
+    pub fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+        self.store.lines.iter().map(|line| line.ends)
+    }
+
+    /// Whether there are segments, or points that bounds depend on.
+    pub fn is_constrained(&self) -> bool {
+        self.store.constrained
+    }
+
+    /// The corners of the triangles that do not keep the bounds of their places, but
+    /// for corners whose angle is that of segments.
     ///
-    /// # Panics
+    /// # Complexity
     ///
-    /// If there is no vertex in the slot.
-    pub fn release(&mut self, slot: u32) {
-        let old = *self.store.vertex(slot);
-        assert!(old.alive(), "no vertex in slot {slot}");
-        let Some((motion, sector)) = self.freedom(slot) else {
-            return;
-        };
-        self.store.write_vertex(slot, Vertex { motion, sector, failed: 0, ..old });
-        let (mark, serials) = (self.store.mark(), self.store.serials);
-        self.forget_failures(slot);
-        thin::thin(&mut self.store, &self.tools, slot, old.at);
-        self.thin_changed(mark, MOST_THINNINGS);
-        if !verify::settle_changes(&mut self.store, mark, self.bounds) {
-            self.reset(mark, serials);
-        }
+    /// Linear in the mesh.
+    pub fn out_of_bounds(&self) -> Vec<[DVec2; 3]> {
+        let bad = |t: &u32| !keeps_bounds_here(&self.store, self.bounds, *t);
+        self.store.live_triangles().filter(bad).map(|t| self.store.corners(t)).collect()
     }
 
-    /// Removes vertices wherever something has changed since `mark`, for as long
-    /// as that succeeds, in so many rounds at most: each reaches farther.
-    fn thin_changed(&mut self, mark: usize, rounds: usize) {
-        for _ in 0..rounds {
-            let before = self.store.counts();
-            let written = Written::of(self.store.since(mark)).vertices;
-            let slots: Vec<u32> = written.into_iter().map(|w| w.0).collect();
-            thin::thin_all(&mut self.store, &self.tools, &slots);
-            if self.store.counts() == before {
-                break;
-            }
-        }
-    }
-
-    /// Removals around a vertex that have failed may succeed now that it is
-    /// free.
-    fn forget_failures(&mut self, slot: u32) {
-        let mut seeds = Vec::new();
-        self.store.around(slot, |t| seeds.push(t));
-        for t in rings(&self.store, &seeds, RINGS - 1) {
-            for v in self.store.triangle(t).v {
-                let old = *self.store.vertex(v);
-                self.store.write_vertex(v, Vertex { failed: 0, ..old });
-            }
-        }
-    }
-
-    /// What a vertex may do that is not fixed, and the angle of the domain
-    /// there; none for a corner.
-    fn freedom(&self, slot: u32) -> Option<(Motion, f64)> {
-        let (mut first, mut last) = (NONE, NONE);
+    /// Whether the vertex in a slot is where a segment ends.
+    pub fn ends_segment(&self, slot: u32) -> bool {
+        let mut bound = false;
         self.store.around(slot, |t| {
             let tri = self.store.triangle(t);
             let k = tri.corner(slot);
-            if tri.n[(k + 2) % 3] == NONE {
-                first = tri.v[(k + 1) % 3];
-            }
-            if tri.n[(k + 1) % 3] == NONE {
-                last = tri.v[(k + 2) % 3];
-            }
+            bound |= tri.is_bound((k + 1) % 3) || tri.is_bound((k + 2) % 3);
         });
-        if first == NONE {
-            return Some((Motion::Free, std::f64::consts::TAU));
-        }
-        let along = (self.store.at(first) - self.store.at(last)).normalize_or_zero();
-        let here = (self.store.at(first) - self.store.at(slot)).normalize_or_zero();
-        let straight = along.perp_dot(here).abs() < STRAIGHT;
-        straight.then_some((Motion::Along(along), std::f64::consts::PI))
-    }
-
-    /// The bounds that every angle keeps.
-    pub fn bounds(&self) -> AngleBounds {
-        self.bounds
+        bound && self.store.line_of_vertex(slot).is_none()
     }
 
     /// Whether there is a fixed vertex in a slot.
@@ -381,12 +323,25 @@ impl LiveMesh {
     /// The fixed vertex nearest to `p` and its distance, among those within two
     /// rings of triangles: if there is none, none is close.
     pub fn nearest_fixed(&mut self, p: DVec2) -> Option<(u32, f64)> {
-        let t = self.locate(p).ok()?;
-        let near = rings(&self.store, &[t], 2);
+        let spot = self.locate(p).ok()?;
+        let near = rings(&self.store, &[spot.triangle], 2);
         let fixed = near.into_iter().flat_map(|t| self.store.triangle(t).v).filter(|&v| self.is_fixed(v));
         fixed
             .map(|v| (v, self.store.at(v).distance(p)))
             .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+    }
+
+    /// The point nearest to `p` of the segments within two rings of triangles, if
+    /// `p` is not on one of them itself, and its distance.
+    pub fn nearest_on_segment(&mut self, p: DVec2) -> Option<(DVec2, f64)> {
+        let spot = self.locate(p).ok().filter(|spot| spot.side.is_none())?;
+        let near = rings(&self.store, &[spot.triangle], 2);
+        let sides = near.into_iter().flat_map(|t| (0..3).map(move |k| (t, k)));
+        let lines = sides.filter_map(|(t, k)| self.store.line_of_side(t, k));
+        lines
+            .map(|line| self.store.lines[line as usize].nearest(p))
+            .map(|q| (q, q.distance(p)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Length of the longest edge of triangles that may touch an axis-parallel
@@ -405,97 +360,5 @@ impl LiveMesh {
             }
         }
         longest
-    }
-
-    /// What was done since the last step, as one step.
-    pub fn take_step(&mut self) -> (Step, Delta) {
-        let delta = self.delta(&Written::of(self.store.since(0)));
-        self.issued = self.store.serials;
-        (Step(self.store.take_journal()), delta)
-    }
-
-    /// Takes back what was done since the last step.
-    pub fn abandon(&mut self) {
-        self.reset(0, self.issued);
-    }
-
-    /// Takes back the last step that is not taken back yet. Serial numbers
-    /// given out since are not given out again.
-    pub fn undo(&mut self, step: &Step) -> Delta {
-        let written = Written::of(&step.0).now(&self.store);
-        self.store.play_back(&step.0);
-        self.delta(&written)
-    }
-
-    /// Puts another mesh in the place of this one, whose serial numbers go on
-    /// from here but for what both have.
-    pub fn replace_by(&mut self, mut other: Self) -> (Self, Delta) {
-        let serials = self.store.serials;
-        if !other.adopted {
-            other.store.renumber(serials);
-        }
-        other.store.serials = other.store.serials.max(serials);
-        other.issued = other.store.serials;
-        other.adopted = true;
-        let mut old = std::mem::replace(self, other);
-        old.adopted = true;
-        let delta = self.delta_from(&old);
-        (old, delta)
-    }
-
-    /// The difference of all of another mesh and this one.
-    fn delta_from(&self, old: &Self) -> Delta {
-        let (was, is) = (old.snapshot(), self.snapshot());
-        let corners = |t: [VertexId; 3]| t.map(|v| is.vertex_serials[v.index()]);
-        let mut delta = Delta {
-            vertices_removed: was.vertex_serials,
-            vertices_added: is.vertex_serials.iter().copied().zip(is.mesh.vertices).collect(),
-            triangles_removed: was.triangle_serials,
-            triangles_added: is
-                .triangle_serials
-                .iter()
-                .copied()
-                .zip(is.mesh.triangles.iter().map(|t| corners(*t)))
-                .collect(),
-            ..Delta::default()
-        };
-        delta.sort();
-        delta
-    }
-
-    /// The difference of what was in slots and what is.
-    fn delta(&self, written: &Written) -> Delta {
-        let mut delta = Delta::default();
-        for &(v, serial, at) in &written.vertices {
-            let now = self.store.vertices.get(v as usize).filter(|now| now.alive());
-            match now {
-                Some(now) if now.serial == serial && now.at == at => {}
-                Some(now) if now.serial == serial => delta.vertices_moved.push((serial, now.at)),
-                now => {
-                    delta.vertices_added.extend(now.map(|now| (now.serial, now.at)));
-                    delta.vertices_removed.extend((serial != 0).then_some(serial));
-                }
-            }
-        }
-        for &(t, serial, _) in &written.triangles {
-            let now = self.store.triangles.get(t as usize).filter(|now| now.alive());
-            if now.is_none_or(|now| now.serial != serial) {
-                let corners = |now: &store::Triangle| now.v.map(|v| self.store.vertex(v).serial);
-                delta.triangles_added.extend(now.map(|now| (now.serial, corners(now))));
-                delta.triangles_removed.extend((serial != 0).then_some(serial));
-            }
-        }
-        delta.sort();
-        delta
-    }
-}
-
-impl Delta {
-    fn sort(&mut self) {
-        self.vertices_removed.sort_unstable();
-        self.vertices_added.sort_unstable_by_key(|v| v.0);
-        self.vertices_moved.sort_unstable_by_key(|v| v.0);
-        self.triangles_removed.sort_unstable();
-        self.triangles_added.sort_unstable_by_key(|t| t.0);
     }
 }

@@ -9,9 +9,10 @@ use std::collections::BTreeMap;
 
 use hexdel_geom::DVec2;
 
+use crate::constraints::NOWHERE;
 use crate::live::cut::Cut;
 use crate::live::insert::{Tools, repair_rounds};
-use crate::mesh::{Around, Mesh, Motion, NONE, Vertices};
+use crate::mesh::{Around, Mesh, Motion, NONE, Tri, Vertices};
 use crate::work::Work;
 
 /// The part with the triangles that `inner` marks cut in four and all angles
@@ -26,9 +27,11 @@ pub(crate) fn refine<'a>(cut: &Cut, tools: &'a Tools, inner: &[bool]) -> Option<
 fn cut_in_four(cut: &Cut, inner: &[bool]) -> Option<Mesh> {
     let old = &cut.mesh;
     let mut built = Builder {
+        old,
         pos: old.pos.clone(),
         motion: old.motion.clone(),
         sector: old.sector.clone(),
+        around: old.surroundings(),
         cut: BTreeMap::new(),
     };
     for (t, tri) in old.tri.iter().enumerate() {
@@ -37,16 +40,19 @@ fn cut_in_four(cut: &Cut, inner: &[bool]) -> Option<Mesh> {
             if tri.n[k] == NONE && [a, b].iter().all(|&v| old.motion[v as usize] == Motion::Frozen) {
                 return None;
             }
-            built.cut_side(a, b, tri.n[k] == NONE);
+            built.cut_side(a, b, tri.n[k] == NONE, tri.is_bound(k))?;
         }
     }
     let mut tris = Vec::with_capacity(2 * old.tri.len());
+    let mut bound = Vec::with_capacity(tris.capacity());
     for tri in &old.tri {
+        let first = tris.len();
         built.triangle(tri.v, &mut tris);
+        bound.extend(tris[first..].iter().map(|&v| built.bound_of(tri, v)));
     }
-    let mut outside: Vec<u16> = vec![0; built.pos.len()];
+    let mut outside: Vec<u32> = vec![0; built.pos.len()];
     for v in 0..old.pos.len() as u32 {
-        outside[v as usize] = old.degree(v) as u16;
+        outside[v as usize] = old.degree(v) as u32;
     }
     for &v in old.tri.iter().flat_map(|t| &t.v) {
         outside[v as usize] -= 1;
@@ -56,30 +62,58 @@ fn cut_in_four(cut: &Cut, inner: &[bool]) -> Option<Mesh> {
         motion: built.motion,
         sector: built.sector,
         outside,
-        around: Around::default(),
+        around: built.around,
     };
-    Mesh::build(vertices, &tris, &[]).ok()
+    Mesh::build(vertices, &tris, &bound).ok()
 }
 
-struct Builder {
+struct Builder<'a> {
+    old: &'a Mesh,
     pos: Vec<DVec2>,
     motion: Vec<Motion>,
     sector: Vec<f64>,
+    around: Around,
     /// Sides cut, lower end first, and the vertex at their middle.
     cut: BTreeMap<[u32; 2], u32>,
 }
 
-impl Builder {
-    fn cut_side(&mut self, a: u32, b: u32, rim: bool) {
+impl Builder<'_> {
+    /// None if the side is on a segment that coordinates do not divide there.
+    fn cut_side(&mut self, a: u32, b: u32, rim: bool, bound: bool) -> Option<()> {
         let key = [a.min(b), a.max(b)];
         if self.cut.contains_key(&key) {
-            return;
+            return Some(());
         }
         let (p, q) = (self.pos[a as usize], self.pos[b as usize]);
+        let mut at = 0.5 * (p + q);
+        let mut motion = if rim { Motion::Along((q - p).normalize()) } else { Motion::Free };
+        if bound {
+            let line = self.old.line_between(a, b)?;
+            at = self.old.nearest_on(line, at);
+            motion = Motion::On(line);
+        }
         self.cut.insert(key, self.pos.len() as u32);
-        self.pos.push(0.5 * (p + q));
-        self.motion.push(if rim { Motion::Along((q - p).normalize()) } else { Motion::Free });
+        self.pos.push(at);
+        self.motion.push(motion);
         self.sector.push(if rim { std::f64::consts::PI } else { std::f64::consts::TAU });
+        if self.old.is_constrained() {
+            self.around.source.push(if let Motion::On(line) = motion { line } else { NOWHERE });
+            self.around.near.push(false);
+        }
+        Some(())
+    }
+
+    /// The sides of a part of `tri` that are on segments.
+    fn bound_of(&self, tri: &Tri, part: [u32; 3]) -> u8 {
+        let on = |v: u32, k: usize| {
+            let (from, to) = (tri.v[(k + 1) % 3], tri.v[(k + 2) % 3]);
+            v == from || v == to || self.middle(from, to) == Some(v)
+        };
+        let is_bound = |i: &usize| {
+            let (from, to) = (part[(i + 1) % 3], part[(i + 2) % 3]);
+            (0..3).any(|k| tri.is_bound(k) && on(from, k) && on(to, k))
+        };
+        (0..3).filter(is_bound).map(|i| 1 << i).sum()
     }
 
     fn middle(&self, a: u32, b: u32) -> Option<u32> {

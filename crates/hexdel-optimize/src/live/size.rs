@@ -16,8 +16,9 @@ use crate::sizing::{Sizing, edge_fits, triangle_fits};
 /// has lengthened come on top.
 const ROUNDS: usize = 96;
 
-/// Triangles that sizing may lead to: some gigabytes.
-const MOST_TRIANGLES: f64 = 5e7;
+/// Triangles that sizing may lead to: some gigabytes, what takes them back
+/// included.
+const MOST_TRIANGLES: f64 = 2e7;
 
 impl LiveMesh {
     /// How long edges may be.
@@ -36,8 +37,8 @@ impl LiveMesh {
     /// # Errors
     ///
     /// [`LiveError::Unsized`] where that is not reached within the bounds,
-    /// [`LiveError::TooMany`] before it is tried; the mesh and its sizing are
-    /// then as they were.
+    /// [`LiveError::TooMany`] as soon as that shows; the mesh and its sizing
+    /// are then as they were.
     ///
     /// # Complexity
     ///
@@ -45,7 +46,7 @@ impl LiveMesh {
     pub fn set_sizing(&mut self, sizing: Option<Arc<dyn Sizing>>) -> Result<(), LiveError> {
         let (mark, serials) = (self.store.mark(), self.store.serials);
         let old = std::mem::replace(&mut self.tools.sizing, sizing);
-        let done = self.check_count().and_then(|()| self.shorten(mark, true)).and_then(|()| {
+        let done = self.shorten(mark, true).and_then(|()| {
             self.relax(old.as_deref());
             let holds = settle_changes(&mut self.store, mark, self.bounds);
             if holds { Ok(()) } else { Err(self.unsized_somewhere()) }
@@ -57,14 +58,16 @@ impl LiveMesh {
         done
     }
 
-    /// Refuses sizes that would take too many triangles, before they are made: a
-    /// triangle with an edge `n` times too long becomes `n^2`.
-    fn check_count(&self) -> Result<(), LiveError> {
+    /// Refuses sizes that would take too many triangles, as far as can be told
+    /// from those that are too `long`: one with an edge `n` times too long
+    /// becomes `n^2`. What is fine in a place that no triangle has seen yet
+    /// shows in a later round.
+    fn check_count(&self, long: &[u32]) -> Result<(), LiveError> {
         let Some(sizing) = self.tools.sizing.as_deref() else {
             return Ok(());
         };
-        let mut triangles = 0.0;
-        for t in self.store.live_triangles() {
+        let mut triangles = self.counts()[1] as f64;
+        for &t in long {
             let [a, b, c] = self.store.corners(t);
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
             let places = [a, b, c, (a + b + c) / 3.0];
@@ -73,7 +76,7 @@ impl LiveMesh {
                 .map(|p| sizing.at(p))
                 .into_iter()
                 .fold(f64::INFINITY, |l, h| if h > 0.0 { l.min(h) } else { 0.0 });
-            triangles += (longest / wanted).powi(2).max(1.0);
+            triangles += (longest / wanted).powi(2).max(1.0) - 1.0;
         }
         if triangles > MOST_TRIANGLES { Err(LiveError::TooMany { triangles }) } else { Ok(()) }
     }
@@ -101,6 +104,7 @@ impl LiveMesh {
                 }
                 return Ok(());
             };
+            self.check_count(&long)?;
             if self.refine_all(&long) {
                 continue;
             }
@@ -123,7 +127,8 @@ impl LiveMesh {
     /// Cuts all these triangles in four at once.
     fn refine_all(&mut self, inside: &[u32]) -> bool {
         let cut = Cut::new(&self.store, rings(&self.store, inside, RINGS));
-        let marks: Vec<bool> = cut.triangles.iter().map(|t| inside.binary_search(t).is_ok()).collect();
+        let is_inside = |t: &u32| inside.binary_search(t).is_ok() && !self.is_exempt(*t);
+        let marks: Vec<bool> = cut.triangles.iter().map(is_inside).collect();
         match refine::refine(&cut, &self.tools, &marks) {
             Some(work) if cut.keeps_disk(&work.mesh) => {
                 cut.put_back(&mut self.store, &work.mesh, &work.failed);

@@ -4,8 +4,11 @@
 //! takes changes back in reverse, and what lies between two places of it is
 //! the difference of the mesh then and now.
 
+use std::sync::Arc;
+
 use hexdel_geom::DVec2;
 
+use crate::constraints::{Line, NOWHERE, POINT, in_wedge, line_between};
 use crate::mesh::{Motion, NONE};
 
 /// A vertex, or a free slot: then `serial` is 0.
@@ -19,12 +22,21 @@ pub(crate) struct Vertex {
     pub(crate) anchor: u32,
     /// As in `Soup::failed`.
     pub(crate) failed: u8,
+    /// The segment that the vertex lies on, `POINT` or `NOWHERE`.
+    pub(crate) source: u32,
     pub(crate) serial: u64,
 }
 
 impl Vertex {
-    pub(crate) const FREE: Self =
-        Self { at: DVec2::ZERO, motion: Motion::Free, sector: 0.0, anchor: NONE, failed: 0, serial: 0 };
+    pub(crate) const FREE: Self = Self {
+        at: DVec2::ZERO,
+        motion: Motion::Free,
+        sector: 0.0,
+        anchor: NONE,
+        failed: 0,
+        source: NOWHERE,
+        serial: 0,
+    };
 
     pub(crate) fn alive(&self) -> bool {
         self.serial != 0
@@ -38,11 +50,14 @@ pub(crate) struct Triangle {
     pub(crate) v: [u32; 3],
     /// Across the side opposite each corner the neighbour, or `NONE`.
     pub(crate) n: [u32; 3],
+    /// The sides on segments: bit `k` that opposite corner `k`. The same on both
+    /// sides.
+    pub(crate) bound: u8,
     pub(crate) serial: u64,
 }
 
 impl Triangle {
-    pub(crate) const FREE: Self = Self { v: [NONE; 3], n: [NONE; 3], serial: 0 };
+    pub(crate) const FREE: Self = Self { v: [NONE; 3], n: [NONE; 3], bound: 0, serial: 0 };
 
     pub(crate) fn alive(&self) -> bool {
         self.serial != 0
@@ -51,6 +66,16 @@ impl Triangle {
     /// Which corner `v` is.
     pub(crate) fn corner(&self, v: u32) -> usize {
         (0..3).find(|&k| self.v[k] == v).expect("the vertex is a corner")
+    }
+
+    /// Whether the side opposite corner `k` is on a segment.
+    pub(crate) fn is_bound(&self, k: usize) -> bool {
+        self.bound >> k & 1 == 1
+    }
+
+    /// The ends of the side opposite corner `k`, with the triangle on the left.
+    pub(crate) fn side(&self, k: usize) -> [u32; 2] {
+        [self.v[(k + 1) % 3], self.v[(k + 2) % 3]]
     }
 }
 
@@ -83,6 +108,10 @@ pub(crate) struct Store {
     pub(crate) free_vertices: Vec<u32>,
     pub(crate) free_triangles: Vec<u32>,
     pub(crate) serials: Serials,
+    /// Whether there are segments or points that bounds depend on.
+    pub(crate) constrained: bool,
+    /// What [`Motion::On`] refers to.
+    pub(crate) lines: Arc<[Line]>,
     /// Writes since it was last emptied, oldest first.
     journal: Vec<Undo>,
 }
@@ -117,7 +146,7 @@ impl Store {
         serials: Serials,
     ) -> Self {
         let [free_vertices, free_triangles] = free;
-        Self { vertices, triangles, free_vertices, free_triangles, serials, journal: Vec::new() }
+        Self { vertices, triangles, free_vertices, free_triangles, serials, ..Self::default() }
     }
 
     pub(crate) fn vertex(&self, v: u32) -> &Vertex {
@@ -134,6 +163,41 @@ impl Store {
 
     pub(crate) fn corners(&self, t: u32) -> [DVec2; 3] {
         self.triangle(t).v.map(|v| self.at(v))
+    }
+
+    /// Whether a vertex lies on a segment or counts as one.
+    pub(crate) fn is_source(&self, v: u32) -> bool {
+        self.vertex(v).source != NOWHERE
+    }
+
+    /// Whether a vertex is at most one edge away from a segment or a point that
+    /// counts as one.
+    pub(crate) fn is_near(&self, v: u32) -> bool {
+        let mut near = self.constrained && self.is_source(v);
+        if self.constrained && !near {
+            self.around(v, |t| near = near || self.triangle(t).v.iter().any(|&w| self.is_source(w)));
+        }
+        near
+    }
+
+    /// Whether all corners of a triangle lie on two segments without room
+    /// between them.
+    pub(crate) fn in_wedge(&self, t: u32) -> bool {
+        let sources = self.triangle(t).v.map(|v| self.vertex(v).source);
+        in_wedge(&self.lines, sources, self.corners(t))
+    }
+
+    /// The segment that the side opposite corner `k` of a triangle is part of.
+    pub(crate) fn line_of_side(&self, t: u32, k: usize) -> Option<u32> {
+        let tri = self.triangle(t);
+        let [a, b] = tri.side(k);
+        let sources = [a, b].map(|v| self.vertex(v).source);
+        if tri.is_bound(k) { line_between(&self.lines, sources, [a, b].map(|v| self.at(v))) } else { None }
+    }
+
+    /// Whether a vertex is between the ends of a segment.
+    pub(crate) fn line_of_vertex(&self, v: u32) -> Option<u32> {
+        Some(self.vertex(v).source).filter(|&s| s < POINT)
     }
 
     /// Live slots.
@@ -209,7 +273,7 @@ impl Store {
     }
 
     /// A slot with a new serial number, without neighbours.
-    pub(crate) fn add_triangle(&mut self, v: [u32; 3]) -> u32 {
+    pub(crate) fn add_triangle(&mut self, v: [u32; 3], bound: u8) -> u32 {
         let slot = self.free_triangles.pop();
         let t = slot.unwrap_or(self.triangles.len() as u32);
         if slot.is_none() {
@@ -217,7 +281,7 @@ impl Store {
         }
         self.journal.push(Undo::TriangleTaken(t, slot.is_none()));
         self.serials.triangle += 1;
-        self.write_triangle(t, Triangle { v, n: [NONE; 3], serial: self.serials.triangle });
+        self.write_triangle(t, Triangle { v, n: [NONE; 3], bound, serial: self.serials.triangle });
         t
     }
 
@@ -291,7 +355,7 @@ mod tests {
         store.free_vertex(b);
         store.add_vertex(vertex(4.0));
         store.add_vertex(vertex(5.0));
-        store.add_triangle([0, 1, 2]);
+        store.add_triangle([0, 1, 2], 0);
         store.rollback(mark);
         assert_eq!(store.vertices, before.vertices);
         assert_eq!(store.triangles, before.triangles);

@@ -4,18 +4,29 @@
 //! predicates: its angles and orientation, its edges, the fans of its corners.
 //! What has not changed was asked when it last did.
 
+use hexdel_geom::delaunay::restore_constrained_delaunay;
 use hexdel_geom::predicates::locally_delaunay;
-use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId, keeps_bounds, restore_delaunay};
+use hexdel_geom::{AngleBounds, TriMesh, VertexId, keeps_bounds_at};
 
 use crate::live::cut::{Cut, rings};
-use crate::live::store::{Store, Undo};
+use crate::live::store::{Store, Triangle, Undo, Vertex};
 use crate::mesh::{Motion, NONE};
+
+/// The bounds of a mesh by place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    /// Of triangles with a vertex at most one edge away from a segment or a
+    /// point that counts as one.
+    pub(crate) near: AngleBounds,
+    /// Of all others.
+    pub(crate) far: AngleBounds,
+}
 
 /// Slots that were written since a place in the journal: ascending, with what
 /// they held then, dead or alive.
 pub(crate) struct Written {
-    pub(crate) vertices: Vec<(u32, u64, DVec2)>,
-    pub(crate) triangles: Vec<(u32, u64, [u32; 3])>,
+    pub(crate) vertices: Vec<(u32, Vertex)>,
+    pub(crate) triangles: Vec<(u32, Triangle)>,
 }
 
 impl Written {
@@ -23,8 +34,8 @@ impl Written {
         let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
         for undo in journal {
             match *undo {
-                Undo::Vertex(v, old) => vertices.push((v, old.serial, old.at)),
-                Undo::Triangle(t, old) => triangles.push((t, old.serial, old.v)),
+                Undo::Vertex(v, old) => vertices.push((v, old)),
+                Undo::Triangle(t, old) => triangles.push((t, old)),
                 _ => {}
             }
         }
@@ -38,12 +49,10 @@ impl Written {
 
     /// The same slots with what they hold now.
     pub(crate) fn now(self, store: &Store) -> Self {
-        let vertex = |(v, _, _): (u32, u64, DVec2)| {
-            store.vertices.get(v as usize).map_or((v, 0, DVec2::ZERO), |now| (v, now.serial, now.at))
-        };
-        let triangle = |(t, _, _): (u32, u64, [u32; 3])| {
-            store.triangles.get(t as usize).map_or((t, 0, [NONE; 3]), |now| (t, now.serial, now.v))
-        };
+        let vertex =
+            |(v, _): (u32, Vertex)| (v, store.vertices.get(v as usize).copied().unwrap_or(Vertex::FREE));
+        let triangle =
+            |(t, _): (u32, Triangle)| (t, store.triangles.get(t as usize).copied().unwrap_or(Triangle::FREE));
         Self {
             vertices: self.vertices.into_iter().map(vertex).collect(),
             triangles: self.triangles.into_iter().map(triangle).collect(),
@@ -52,14 +61,14 @@ impl Written {
 
     /// Live triangles that are new or have a corner that moved, ascending.
     pub(crate) fn changed(&self, store: &Store) -> Vec<u32> {
-        let is_new = |&&(t, serial, _): &&(u32, u64, [u32; 3])| {
+        let is_new = |&&(t, old): &&(u32, Triangle)| {
             let now = store.triangles.get(t as usize);
-            now.is_some_and(|now| now.alive() && now.serial != serial)
+            now.is_some_and(|now| now.alive() && now.serial != old.serial)
         };
         let mut changed: Vec<u32> = self.triangles.iter().filter(is_new).map(|w| w.0).collect();
-        for &(v, serial, at) in &self.vertices {
+        for &(v, old) in &self.vertices {
             let now = store.vertices.get(v as usize);
-            if now.is_some_and(|now| now.alive() && (now.serial != serial || now.at != at)) {
+            if now.is_some_and(|now| now.alive() && (now.serial != old.serial || now.at != old.at)) {
                 store.around(v, |t| changed.push(t));
             }
         }
@@ -67,6 +76,50 @@ impl Written {
         changed.dedup();
         changed
     }
+
+    /// Those that have changed, and those that may have lost what made them near
+    /// a segment; ascending.
+    pub(crate) fn to_check(&self, store: &Store) -> Vec<u32> {
+        let mut all = self.changed(store);
+        if !store.constrained {
+            return all;
+        }
+        let alive = |v: &u32| store.vertices.get(*v as usize).is_some_and(Vertex::alive);
+        let mut corners: Vec<u32> = self.triangles.iter().flat_map(|(_, old)| old.v).filter(alive).collect();
+        for &(v, old) in self.vertices.iter().filter(|(v, old)| alive(v) && old.serial != 0) {
+            if store.vertex(v).source != old.source {
+                store.around(v, |t| corners.extend(store.triangle(t).v));
+            }
+        }
+        corners.sort_unstable();
+        corners.dedup();
+        for v in corners {
+            store.around(v, |t| all.push(t));
+        }
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
+
+/// Whether a triangle keeps the bounds of its place as a certificate sees them,
+/// but for corners whose angle is the input's.
+pub(crate) fn keeps_bounds_here(store: &Store, bounds: Bounds, t: u32) -> bool {
+    let corners = store.corners(t);
+    if !store.constrained {
+        return keeps_bounds_at(corners, bounds.far, [true; 3]);
+    }
+    let tri = store.triangle(t);
+    let wider =
+        bounds.near.min_deg() <= bounds.far.min_deg() && bounds.near.max_deg() >= bounds.far.max_deg();
+    // Most keep both, and need not be asked where they are.
+    if wider && keeps_bounds_at(corners, bounds.far, [true; 3]) {
+        return true;
+    }
+    let is_sector = |k: usize| tri.is_bound((k + 1) % 3) && tri.is_bound((k + 2) % 3);
+    let lower = if store.in_wedge(t) { [false; 3] } else { [0, 1, 2].map(|k| !is_sector(k)) };
+    let near = lower.contains(&false) || tri.v.iter().any(|&v| store.is_near(v));
+    keeps_bounds_at(corners, if near { bounds.near } else { bounds.far }, lower)
 }
 
 /// Triangles as a mesh of their own, with the slot of each vertex.
@@ -84,17 +137,18 @@ pub(crate) fn as_mesh(store: &Store, triangles: &[u32]) -> (TriMesh, Vec<u32>) {
 
 /// Whether everything that has changed holds. Edges that are not Delaunay, as
 /// rounding leaves them now and then, are repaired on the way.
-pub(crate) fn settle_changes(store: &mut Store, mark: usize, bounds: AngleBounds) -> bool {
+pub(crate) fn settle_changes(store: &mut Store, mark: usize, bounds: Bounds) -> bool {
     // A repair changes more; a second one is needed for next to no mesh.
     for _ in 0..4 {
-        let changed = Written::of(store.since(mark)).changed(store);
-        if !changed.iter().all(|&t| keeps_bounds(store.corners(t), bounds)) || !fans_hold(store, &changed) {
+        let written = Written::of(store.since(mark));
+        let (changed, to_check) = (written.changed(store), written.to_check(store));
+        if !to_check.iter().all(|&t| keeps_bounds_here(store, bounds, t)) || !fans_hold(store, &changed) {
             return false;
         }
         if changed.iter().all(|&t| is_delaunay(store, t)) {
             return true;
         }
-        if !restore(store, &changed, bounds) {
+        if !restore(store, &changed, bounds.near) {
             return false;
         }
     }
@@ -134,7 +188,10 @@ fn restore(store: &mut Store, changed: &[u32], bounds: AngleBounds) -> bool {
     let (mut mesh, slots) = as_mesh(store, &cut.triangles);
     debug_assert_eq!(slots, cut.vertices);
     let free = |v: VertexId| cut.mesh.motion[v.index()] == Motion::Free;
-    if restore_delaunay(&mut mesh, bounds, free).is_err() {
+    let bound = cut.bound_sides();
+    let flippable =
+        |[a, b]: [VertexId; 2]| bound.binary_search(&[a.min(b), a.max(b)].map(|v| v.index() as u32)).is_err();
+    if restore_constrained_delaunay(&mut mesh, bounds, free, flippable).is_err() {
         return false;
     }
     cut.put_mesh(store, &mesh);

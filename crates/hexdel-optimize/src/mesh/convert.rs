@@ -80,7 +80,7 @@ pub(crate) struct Vertices {
     pub(crate) motion: Vec<Motion>,
     pub(crate) sector: Vec<f64>,
     /// Triangles at each vertex that are not in the mesh.
-    pub(crate) outside: Vec<u16>,
+    pub(crate) outside: Vec<u32>,
     pub(crate) around: Around,
 }
 

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use hexdel_geom::DVec2;
 
 use crate::angles::Measure;
-use crate::constraints::{Line, NOWHERE};
+use crate::constraints::{Line, NOWHERE, POINT};
 
 /// No triangle, no vertex.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -84,6 +84,8 @@ enum Change {
     Moved(u32, DVec2),
     Triangle(u32, Tri),
     Anchor(u32, u32),
+    /// Motion and source.
+    Kind(u32, Motion, u32),
     NewTriangle,
     NewVertex,
 }
@@ -106,7 +108,7 @@ pub(crate) struct Mesh {
     anchor: Vec<u32>,
     /// Number of live triangles at each vertex, plus those of the vertex that
     /// lie outside of this mesh when it is a part of a larger one.
-    degree: Vec<u16>,
+    degree: Vec<u32>,
     /// Whether there are segments, and `source` and `near` are in use.
     constrained: bool,
     /// The segment that each vertex lies on, `POINT` or `NOWHERE`.
@@ -123,7 +125,7 @@ impl Mesh {
     /// Number of triangles at `v`.
     #[inline]
     pub(crate) fn degree(&self, v: u32) -> usize {
-        usize::from(self.degree[v as usize])
+        self.degree[v as usize] as usize
     }
 
     pub(crate) fn alive(&self, v: u32) -> bool {
@@ -237,6 +239,19 @@ impl Mesh {
         self.pos[v as usize] = p;
     }
 
+    /// Makes a vertex a fixed one at `p`: of its segment, or a point that counts
+    /// as one.
+    pub(crate) fn fix(&mut self, v: u32, p: DVec2) {
+        self.set_pos(v, p);
+        let i = v as usize;
+        let source = self.source.get(i).copied().unwrap_or(NOWHERE);
+        self.journal.push(Change::Kind(v, self.motion[i], source));
+        self.motion[i] = Motion::Fixed;
+        if self.constrained && source == NOWHERE {
+            self.source[i] = POINT;
+        }
+    }
+
     fn count(&mut self, t: Tri, up: bool) {
         if t.alive() {
             for v in t.v {
@@ -294,6 +309,12 @@ impl Mesh {
             match change {
                 Change::Moved(v, p) => self.pos[v as usize] = p,
                 Change::Anchor(v, t) => self.anchor[v as usize] = t,
+                Change::Kind(v, motion, source) => {
+                    self.motion[v as usize] = motion;
+                    if self.constrained {
+                        self.source[v as usize] = source;
+                    }
+                }
                 Change::Triangle(t, old) => {
                     self.count(self.tri[t as usize], false);
                     self.count(old, true);
@@ -344,9 +365,14 @@ impl Mesh {
         self.constrained
     }
 
-    /// As of `source`.
+    /// As of `source`; `NOWHERE` if there are no segments.
     pub(crate) fn source(&self, v: u32) -> u32 {
-        self.source[v as usize]
+        self.source.get(v as usize).copied().unwrap_or(NOWHERE)
+    }
+
+    /// What vertices know of segments.
+    pub(crate) fn surroundings(&self) -> Around {
+        Around { source: self.source.clone(), near: self.near.clone(), lines: self.lines.clone() }
     }
 
     /// Whether vertex `v` lies on a segment or counts as one.

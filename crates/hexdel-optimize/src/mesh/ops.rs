@@ -1,8 +1,10 @@
 //! The changes of topology: all are one operation, the replacement of a few
 //! triangles by others with the same outline.
 
+use hexdel_geom::DVec2;
+
 use super::{Mesh, Motion, NONE, Tri};
-use crate::constraints::Line;
+use crate::constraints::line_between;
 
 /// One directed side of the outline and what lies beyond it.
 #[derive(Clone, Copy)]
@@ -200,7 +202,7 @@ impl Mesh {
         }
         if tri.is_bound(k) {
             let line = self.line_between(from, to)?;
-            mid = self.lines[line as usize].nearest(mid);
+            mid = self.nearest_on(line, mid);
             motion = Motion::On(line);
         } else if beyond.is_none() {
             motion = Motion::Along((q - p).normalize());
@@ -221,19 +223,15 @@ impl Mesh {
         Some(m)
     }
 
-    /// The segment that an edge is part of: that of an end that slides, or the
-    /// one whose ends are its ends.
-    fn line_between(&self, a: u32, b: u32) -> Option<u32> {
-        let of = |v: u32| match self.motion[v as usize] {
-            Motion::On(line) => Some(line),
-            _ => None,
-        };
+    /// The segment that an edge is part of.
+    pub(crate) fn line_between(&self, a: u32, b: u32) -> Option<u32> {
         let ends = [a, b].map(|v| self.pos[v as usize]);
-        let whole = || {
-            let same = |l: &Line| l.ends == ends || l.ends == [ends[1], ends[0]];
-            self.lines.iter().position(same).map(|i| i as u32)
-        };
-        of(a).or_else(|| of(b)).or_else(whole)
+        line_between(&self.lines, [a, b].map(|v| self.source(v)), ends)
+    }
+
+    /// The point of a segment nearest to `p`, rounded.
+    pub(crate) fn nearest_on(&self, line: u32, p: DVec2) -> DVec2 {
+        self.lines[line as usize].nearest(p)
     }
 }
 

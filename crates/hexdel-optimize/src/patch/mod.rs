@@ -17,7 +17,7 @@ use crate::constraints::Rules;
 use crate::mesh::{Mesh, Motion, NONE};
 
 pub(crate) use newton::Newton;
-pub(crate) use project::Sweeps;
+pub(crate) use project::{Sweeps, Swept};
 
 /// A corner outside the target.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +35,11 @@ pub(crate) struct State {
     pub(crate) energy: f64,
     /// Every triangle is strictly inside the bounds.
     pub(crate) solved: bool,
+}
+
+impl State {
+    /// That of a patch that is not worth more work.
+    pub(crate) const HOPELESS: Self = Self { energy: f64::INFINITY, solved: false };
 }
 
 /// A patch under work; storage is reused from patch to patch.

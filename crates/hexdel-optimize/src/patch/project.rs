@@ -38,6 +38,19 @@ pub(crate) struct Sweeps {
     /// Stop when the energy is not below this share of what it was
     /// `WINDOW` sweeps before.
     pub(crate) stall: f64,
+    /// Give up when a sweep but the first finds more energy than this.
+    pub(crate) hope: f64,
+}
+
+/// How sweeps end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Swept {
+    /// Nothing is outside the target.
+    Settled,
+    /// They got slow, or were too many.
+    Stalled,
+    /// Too much is outside for more of them to help.
+    Hopeless,
 }
 
 impl Patch {
@@ -46,21 +59,25 @@ impl Patch {
     /// # Complexity
     ///
     /// A sweep is linear in the patch's triangles.
-    pub(crate) fn project(&mut self, rules: &Rules<'_>, sweeps: Sweeps) {
+    pub(crate) fn project(&mut self, rules: &Rules<'_>, sweeps: Sweeps) -> Swept {
         let mut before = f64::INFINITY;
         for sweep in 1..=sweeps.most {
             let energy = self.sweep(rules);
             if energy == 0.0 {
-                return;
+                return Swept::Settled;
+            }
+            if sweep > 1 && energy > sweeps.hope {
+                return Swept::Hopeless;
             }
             if sweep % WINDOW == 0 {
                 // A triangle none of whose corners can move makes it infinite.
                 if energy > sweeps.stall * before || energy == f64::INFINITY {
-                    return;
+                    break;
                 }
                 before = energy;
             }
         }
+        Swept::Stalled
     }
 
     /// One sweep; returns the sum of squared motions in units of the shortest

@@ -306,7 +306,7 @@ impl Mesher {
         }
     }
 
-    fn pslg_options(&self, domain: Domain) -> Options {
+    pub(crate) fn pslg_options(&self, domain: Domain) -> Options {
         let effort = (self.method == Method::Compact).then_some(self.effort);
         let mut options = Options::new().extent(domain.extent()).compact(effort);
         options.method = self.graph.segments.unwrap_or_default();

@@ -25,6 +25,30 @@ pub enum SessionError {
         /// Circumradius of the domain.
         radius: f64,
     },
+    /// A point is not in what the segments of a graph enclose.
+    #[error("({:?}, {:?}) lies outside of the domain", at.x, at.y)]
+    NotCovered {
+        /// The point.
+        at: DVec2,
+    },
+    /// There is no room for a point, or the place of one, within the bounds.
+    #[error("no change nearby at ({:?}, {:?}) keeps the bounds", at.x, at.y)]
+    NoRoom {
+        /// The point.
+        at: DVec2,
+    },
+    /// A point that segments end at stays.
+    #[error("point {} is an end of a segment", id.0)]
+    SegmentEnd {
+        /// The point.
+        id: PointId,
+    },
+    /// An option that sessions of graphs do not keep.
+    #[error("sessions of graphs know nothing of {option}")]
+    NotForSessions {
+        /// The option.
+        option: &'static str,
+    },
     /// There is the same point already.
     #[error("({:?}, {:?}) is point {} already", at.x, at.y, of.0)]
     Duplicate {
@@ -32,6 +56,15 @@ pub enum SessionError {
         at: DVec2,
         /// Which one it is.
         of: PointId,
+    },
+    /// A point is so close to the rim that hexagons along it would have to be
+    /// smaller than they may.
+    #[error("({:?}, {:?}) leaves no room for templates between it and the rim at {radius:?}", at.x, at.y)]
+    AtRim {
+        /// The point, or the one closest to the rim.
+        at: DVec2,
+        /// Circumradius of the domain.
+        radius: f64,
     },
     /// A point is closer to another than coordinates resolve.
     #[error("({:?}, {:?}) is {distance:e} from ({:?}, {:?}), closer than the {least:e} that coordinates resolve",
@@ -88,7 +121,7 @@ pub enum SessionError {
         id: PointId,
     },
     /// What was read is a session whose mesh does not hold.
-    #[error("no session: {} triangles are out of bounds", certificate.out_of_bounds)]
+    #[error("no session: its mesh does not hold, {} triangles are out of bounds", certificate.out_of_bounds)]
     NotCertified {
         /// What its certificate says.
         certificate: Box<Certificate>,

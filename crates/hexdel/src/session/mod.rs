@@ -7,12 +7,14 @@
 //! suffice. `docs/sessions.md` explains the whole.
 
 mod error;
+mod graph;
 mod outcome;
 mod remesh;
 mod saved;
+mod templates;
 
 use crate::mesher::{Mesher, Method};
-use crate::placement::{self, CONFLICT_REACH, MAX_COORDINATE, finest_spacing};
+use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
 use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
 use hexdel_optimize::live::{LiveError, LiveMesh, Step};
@@ -21,8 +23,11 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 pub use error::SessionError;
+use graph::Frame;
+pub use graph::SessionCheck;
 pub use outcome::{Outcome, PointId, SessionMesh};
 use remesh::kinds;
+pub use templates::TemplateSession;
 
 /// Calls that can be undone.
 const UNDO: usize = 256;
@@ -30,10 +35,6 @@ const UNDO: usize = 256;
 /// From so many new points on, and as many as there are, the whole is meshed
 /// anew: point by point takes ten times as long.
 const BATCH: usize = 64;
-
-/// Steps of a domain that coordinates must resolve: a hundred levels of
-/// halving would not be seen.
-const FINEST: f64 = 1024.0;
 
 /// A mesh that changes.
 ///
@@ -70,6 +71,8 @@ pub struct Session {
     points: Vec<Option<u32>>,
     /// The point in each slot that has one.
     of_slot: BTreeMap<u32, PointId>,
+    /// What there is of a graph.
+    frame: Option<Arc<Frame>>,
     /// What undoes the last calls, the last one at the end.
     history: VecDeque<Undo>,
 }
@@ -101,7 +104,8 @@ impl Session {
     /// [`SessionError::InvalidDomain`].
     pub fn empty(centre: DVec2, radius: f64) -> Result<Self, SessionError> {
         let reach = centre.abs().max_element() + radius;
-        let fits = radius > FINEST * finest_spacing(DVec2::splat(reach)) && reach < MAX_COORDINATE;
+        let least = (FINEST * finest_spacing(DVec2::splat(reach))).max(1.0 / MAX_COORDINATE);
+        let fits = radius > least && reach < MAX_COORDINATE;
         if !(centre.is_finite() && fits) {
             return Err(SessionError::InvalidDomain { centre, radius });
         }
@@ -121,6 +125,7 @@ impl Session {
             size: None,
             points: Vec::new(),
             of_slot: BTreeMap::new(),
+            frame: None,
             history: VecDeque::new(),
         })
     }
@@ -156,6 +161,7 @@ impl Session {
             size,
             of_slot: slots.iter().enumerate().map(|(i, &v)| (v, PointId(i as u64))).collect(),
             points: slots.into_iter().map(Some).collect(),
+            frame: None,
             history: VecDeque::new(),
         })
     }
@@ -184,7 +190,7 @@ impl Session {
     pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
         let before = self.points.len();
         let present = self.of_slot.len();
-        if points.len() >= BATCH && points.len() >= present {
+        if self.frame.is_none() && points.len() >= BATCH && points.len() >= present {
             return self.insert_by_remeshing(points);
         }
         for &point in points {
@@ -196,6 +202,9 @@ impl Session {
                 }
                 Err(Refused::NoRoom) => {
                     self.abandon(before);
+                    if self.frame.is_some() {
+                        return Err(SessionError::NoRoom { at: point });
+                    }
                     return self.insert_by_remeshing(points);
                 }
             }
@@ -214,6 +223,9 @@ impl Session {
                 // A corner of the domain that is no point yet.
                 None => slot,
             },
+            Err(LiveError::Outside { .. }) if self.frame.is_some() => {
+                return Err(SessionError::NotCovered { at }.into());
+            }
             Err(LiveError::Outside { .. }) => {
                 return Err(SessionError::Outside { at, radius: self.radius }.into());
             }
@@ -229,13 +241,13 @@ impl Session {
         if !at.is_finite() {
             return Err(SessionError::NotFinite { at });
         }
-        let Some((slot, distance)) = self.live.nearest_fixed(at) else {
-            return Ok(());
-        };
-        let to = self.live.position(slot);
-        let least = finest_spacing(at).max(finest_spacing(to)) * CONFLICT_REACH;
-        if distance > 0.0 && distance < least {
-            return Err(SessionError::TooClose { at, to, distance, least });
+        let fixed = self.live.nearest_fixed(at).map(|(slot, distance)| (self.live.position(slot), distance));
+        let on_segment = if self.frame.is_some() { self.live.nearest_on_segment(at) } else { None };
+        for (to, distance) in fixed.into_iter().chain(on_segment) {
+            let least = finest_spacing(at).max(finest_spacing(to)) * CONFLICT_REACH;
+            if distance > 0.0 && distance < least {
+                return Err(SessionError::TooClose { at, to, distance, least });
+            }
         }
         Ok(())
     }
@@ -253,7 +265,9 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError::UnknownPoint`].
+    /// [`SessionError::UnknownPoint`]; of a graph [`SessionError::SegmentEnd`], and
+    /// [`SessionError::NoRoom`] where the bounds of places without a point cannot be
+    /// reached.
     ///
     /// # Complexity
     ///
@@ -266,14 +280,23 @@ impl Session {
         if let Some(id) = twice.or_else(|| sorted.iter().copied().find(|id| known(id).is_none())) {
             return Err(SessionError::UnknownPoint { id });
         }
-        let mut undo = Vec::with_capacity(ids.len());
-        for &id in ids {
-            if let Some(slot) = self.points[id.0 as usize].take() {
-                self.of_slot.remove(&slot);
-                undo.push((id, Some(slot)));
-                self.live.release(slot);
+        let slots: Vec<(PointId, u32)> =
+            ids.iter().filter_map(|&id| self.points[id.0 as usize].map(|slot| (id, slot))).collect();
+        if let Some(&(id, _)) = slots.iter().find(|(_, slot)| self.live.ends_segment(*slot)) {
+            return Err(SessionError::SegmentEnd { id });
+        }
+        for &(_, slot) in &slots {
+            let at = self.live.position(slot);
+            if self.live.release(slot).is_err() {
+                self.live.abandon();
+                return Err(SessionError::NoRoom { at });
             }
         }
+        for &(id, slot) in &slots {
+            self.points[id.0 as usize] = None;
+            self.of_slot.remove(&slot);
+        }
+        let undo = slots.into_iter().map(|(id, slot)| (id, Some(slot))).collect();
         Ok(self.done(self.points.len(), undo, self.size.clone()))
     }
 
@@ -325,8 +348,12 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError`] if the larger domain cannot be meshed.
+    /// [`SessionError`] if the larger domain cannot be meshed, or if it is that of
+    /// a graph.
     pub fn grow(&mut self) -> Result<Outcome, SessionError> {
+        if self.frame.is_some() {
+            return Err(SessionError::NotForSessions { option: "growing of a graph's domain" });
+        }
         let (ids, points) = self.present();
         self.remesh(ids, &points, 2.0 * self.radius, self.size.clone())
     }
@@ -414,21 +441,31 @@ impl Session {
         let mut points: Vec<(PointId, VertexId)> =
             snapshot.vertex_slots.iter().enumerate().filter_map(named).collect();
         points.sort_unstable();
-        SessionMesh {
+        let mut made = SessionMesh {
             points,
-            mesh: snapshot.mesh,
-            vertex_serials: snapshot.vertex_serials,
-            triangle_serials: snapshot.triangle_serials,
+            mesh: snapshot.mesh.clone(),
+            vertex_serials: snapshot.vertex_serials.clone(),
+            triangle_serials: snapshot.triangle_serials.clone(),
+            ..SessionMesh::default()
+        };
+        if let Some(frame) = &self.frame {
+            self.add_segments(frame, &snapshot, &mut made);
         }
+        made
     }
 
-    /// The certificate of the whole mesh, made from scratch.
+    /// The certificate of the whole mesh, made from scratch; of a graph against the
+    /// bounds near segments, with exempt triangles out of bounds:
+    /// [`check`](Self::check) knows them.
     ///
     /// # Complexity
     ///
     /// Linear in the mesh.
     pub fn certificate(&self) -> Certificate {
         let (_, points) = self.present();
+        if self.frame.is_some() {
+            return self.certificate_of_graph(&points);
+        }
         let options = CertifyOptions { bounds: self.bounds, inputs: Some(&points), ..Default::default() };
         certify(&self.live.snapshot().mesh, &options)
     }

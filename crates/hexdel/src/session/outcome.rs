@@ -2,6 +2,7 @@
 
 use hexdel_geom::{TriMesh, VertexId};
 use hexdel_optimize::live::Delta;
+use hexdel_pslg::SegmentEdge;
 
 /// A point of a session: they are counted from 0 as they come, and no number
 /// is used twice.
@@ -21,7 +22,7 @@ pub struct Outcome {
 }
 
 /// A mesh as it stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SessionMesh {
     /// Vertices and counter-clockwise triangles.
@@ -32,4 +33,11 @@ pub struct SessionMesh {
     pub triangle_serials: Vec<u64>,
     /// The points and their vertices.
     pub points: Vec<(PointId, VertexId)>,
+    /// Of a graph: the edges that segments, and the sides of a domain that is no
+    /// hexagon, consist of, in a row along each.
+    pub edges: Vec<SegmentEdge>,
+    /// Of a graph: a marker of each vertex.
+    pub vertex_markers: Vec<i32>,
+    /// Of a graph: the region of each triangle, if it lies in one.
+    pub region_of_triangle: Vec<Option<u32>>,
 }

@@ -1,10 +1,12 @@
 //! Sessions as text (RON), to be continued.
 
-use super::{PointId, Session, SessionError};
-use crate::size::Size;
+use super::{Frame, PointId, Session, SessionError};
+use crate::placement::finest_spacing;
+use crate::size::{Size, SizeError};
+use crate::sized;
 use hexdel_geom::DVec2;
 use hexdel_optimize::live::{LiveMesh, LiveState};
-use hexdel_optimize::{Effort, Sizing};
+use hexdel_optimize::{Effort, SIZE_TOLERANCE, Sizing};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -22,6 +24,8 @@ struct Document {
     /// The slot of each point, none for removed ones.
     points: Vec<Option<u32>>,
     mesh: LiveState,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    frame: Option<Frame>,
 }
 
 impl Session {
@@ -47,6 +51,7 @@ impl Session {
             size: self.size.clone(),
             points: self.points.clone(),
             mesh: self.live.state(),
+            frame: self.frame.as_deref().cloned(),
         };
         ron::to_string(&document).map_err(|e| SessionError::Unreadable { message: e.to_string() })
     }
@@ -77,8 +82,14 @@ impl Session {
             }
         }
         live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
+        let frame = document.frame.map(Arc::new);
+        if frame.is_some() != live.is_constrained() || frame.as_ref().is_some_and(|f| !f.fits(&live)) {
+            return Err(unreadable("segments that are not those of the mesh".to_owned()));
+        }
+        let least = finest_spacing(DVec2::splat(centre.abs().max_element() + radius));
+        size.as_ref().map_or(Ok(()), |size| size.check(least))?;
         let session = Self {
-            bounds: live.bounds(),
+            bounds: live.bounds()[1],
             live,
             effort: [Effort::Fast, Effort::Standard, Effort::Best][usize::from(document.effort.min(2))],
             centre,
@@ -86,11 +97,18 @@ impl Session {
             size,
             points: document.points,
             of_slot,
+            frame,
             history: VecDeque::new(),
         };
-        let certificate = session.certificate();
-        if !certificate.holds() {
-            return Err(SessionError::NotCertified { certificate: Box::new(certificate) });
+        let check = session.check();
+        if !check.holds() {
+            return Err(SessionError::NotCertified { certificate: Box::new(check.certificate) });
+        }
+        if let Some(size) = &session.size {
+            let (ratio, at, length) = sized::worst(&session.mesh().mesh, size);
+            if ratio > 1.0 + SIZE_TOLERANCE {
+                return Err(SizeError::Unreached { at, length }.into());
+            }
         }
         Ok(session)
     }

@@ -1,0 +1,294 @@
+//! Sessions of graphs: what of the graph stays, and the mesh seen with it.
+
+use super::{PointId, Session, SessionError, SessionMesh};
+use crate::error::Error;
+use crate::graph::Domain;
+use crate::graph::result::PslgTriangulation;
+use crate::mesher::{Mesher, Method};
+use hexdel_geom::{Certificate, Circle, smallest_enclosing_circle};
+use hexdel_geom::{CertifyOptions, DVec2, Pslg, SegmentCheck, VertexId, certify, check_segments};
+use hexdel_optimize::live::{LiveMesh, Snapshot};
+use hexdel_optimize::{Constraints, VertexKind, kinds_of};
+use hexdel_pslg::{SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+/// Sine of the turn up to which the sides of a domain go straight on.
+const STRAIGHT: f64 = 1e-3;
+
+/// What does not change in a session of a graph.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Frame {
+    /// The graph. The first points of the session are its points.
+    pub(super) graph: Pslg,
+    /// The ends of each straight part of a segment, or of a side of the domain.
+    pub(super) lines: Vec<[DVec2; 2]>,
+    /// The segment that each of them is a part of.
+    segment_of_line: Vec<Option<u32>>,
+}
+
+impl Frame {
+    /// Whether the segments are those of a mesh that was read.
+    pub(super) fn fits(&self, live: &LiveMesh) -> bool {
+        let known = |s: &Option<u32>| s.is_none_or(|s| (s as usize) < self.graph.segments.len());
+        self.graph.check_layout().is_ok()
+            && self.segment_of_line.len() == self.lines.len()
+            && self.segment_of_line.iter().all(known)
+            && live.segments().eq(self.lines.iter().copied())
+    }
+}
+
+/// What a session keeps, found out from scratch.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct SessionCheck {
+    /// The certificate of the mesh; of a graph against the bounds near segments,
+    /// and triangles at corners of the graph narrower than the bound count as out
+    /// of bounds in it.
+    pub certificate: Certificate,
+    /// Whether the segments of a graph are unions of edges.
+    pub segments: SegmentCheck,
+    /// The corners of triangles that do not keep the bounds of their places, but for
+    /// corners of the graph narrower than the bound.
+    pub out_of_bounds: Vec<[DVec2; 3]>,
+}
+
+impl From<Certificate> for SessionCheck {
+    /// The check of a mesh without segments.
+    fn from(certificate: Certificate) -> Self {
+        Self { certificate, segments: SegmentCheck::default(), out_of_bounds: Vec::new() }
+    }
+}
+
+impl SessionCheck {
+    /// Whether everything promised is so.
+    pub fn holds(&self) -> bool {
+        let c = &self.certificate;
+        let broken =
+            c.not_counter_clockwise + c.malformed + c.not_finite + c.repeated_edges + c.unused_vertices;
+        let fits = self.out_of_bounds.is_empty() && self.segments.missing.is_empty();
+        // Of a graph, the certificate's count of triangles has exempt ones in it.
+        (c.holds() || self.segments.segments > 0)
+            && fits
+            && c.delaunay
+            && broken == 0
+            && c.inputs_kept == c.inputs
+    }
+}
+
+/// The mesh of a graph in a row of straight parts.
+struct Rows {
+    lines: Vec<[DVec2; 2]>,
+    segment_of_line: Vec<Option<u32>>,
+    edges: Vec<[VertexId; 2]>,
+    /// For each vertex the line that it lies on between the ends, if any.
+    on: Vec<Option<usize>>,
+    /// Ends of lines, and points of the graph.
+    is_point: Vec<bool>,
+}
+
+impl Rows {
+    fn of(made: &PslgTriangulation) -> Self {
+        let at = |v: VertexId| made.mesh.vertices[v.index()];
+        let mut rows = Self {
+            lines: Vec::new(),
+            segment_of_line: Vec::new(),
+            edges: Vec::new(),
+            on: vec![None; made.mesh.vertices.len()],
+            is_point: made.point_of_vertex.iter().map(Option::is_some).collect(),
+        };
+        // The sides of a hexagon are no segments.
+        let kept = |e: &&SegmentEdge| e.segment.is_some() || made.domain != Domain::Hexagon;
+        let edges: Vec<&SegmentEdge> = made.edges.iter().filter(kept).collect();
+        let goes_on = |a: &SegmentEdge, b: &SegmentEdge| {
+            let [u, w] = [a, b].map(|e| (at(e.ends[1]) - at(e.ends[0])).normalize_or_zero());
+            let is_point = made.point_of_vertex[b.ends[0].index()].is_some();
+            a.segment == b.segment && a.ends[1] == b.ends[0] && !is_point && u.perp_dot(w).abs() <= STRAIGHT
+        };
+        for row in edges.chunk_by(|a, b| goes_on(a, b)) {
+            let ends = [row[0].ends[0], row[row.len() - 1].ends[1]];
+            for edge in &row[1..] {
+                rows.on[edge.ends[0].index()] = Some(rows.lines.len());
+            }
+            for end in ends {
+                rows.is_point[end.index()] = true;
+            }
+            rows.lines.push(ends.map(at));
+            rows.segment_of_line.push(row[0].segment);
+            rows.edges.extend(row.iter().map(|e| e.ends));
+        }
+        rows
+    }
+
+    fn kinds(&self, made: &PslgTriangulation) -> Vec<VertexKind> {
+        let taken = |v: VertexId| self.is_point[v.index()] || self.on[v.index()].is_some();
+        let mut kinds = kinds_of(&made.mesh, taken);
+        for (kind, on) in kinds.iter_mut().zip(&self.on) {
+            if let Some(line) = *on {
+                *kind = VertexKind::OnSegment(line);
+            }
+        }
+        kinds
+    }
+
+    fn points(&self) -> Vec<VertexId> {
+        (0..self.is_point.len()).filter(|&v| self.is_point[v]).map(VertexId::new).collect()
+    }
+}
+
+impl Session {
+    /// The mesh that a mesher makes of a graph of points and segments, as a
+    /// session. Points of the graph are numbered as in it; those in holes or outside
+    /// of the domain are not there, and those that segments end at stay.
+    ///
+    /// ```
+    /// use hexdel::{DVec2, Mesher, Pslg, Session};
+    ///
+    /// let mut square = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
+    /// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0]];
+    /// let mut session = Session::with_segments(&square, &Mesher::new())?;
+    /// // On a side, which it divides.
+    /// session.insert(DVec2::new(0.25, 0.0))?;
+    /// assert!(session.check().holds());
+    /// # Ok::<(), hexdel::SessionError>(())
+    /// ```
+    ///
+    /// # Guarantees
+    ///
+    /// After every call, as of [`Mesher::triangulate_pslg`]: every segment is a union
+    /// of edges, bounds hold by place, and triangles are exempt where segments meet at
+    /// less than the bound.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Mesh`], [`SessionError::NotCertified`] for a graph whose mesh
+    /// does not keep its bounds, [`SessionError::NotForSessions`],
+    /// [`SessionError::Duplicate`].
+    pub fn with_segments(graph: &Pslg, mesher: &Mesher) -> Result<Self, SessionError> {
+        let mut mesher = mesher.clone().method(Method::Compact);
+        let (effort, size) = mesher.for_session();
+        mesher.size = None;
+        let options = mesher.pslg_options(Domain::Inside);
+        if options.max_area.is_some() || graph.regions.iter().any(|r| r.max_area.is_some()) {
+            return Err(SessionError::NotForSessions { option: "a limit on areas" });
+        }
+        if options.method == SegmentMethod::Paper {
+            return Err(SessionError::NotForSessions { option: "the paper's way with segments" });
+        }
+        let made = mesher.triangulate_pslg(graph)?;
+        if !made.holds() {
+            return Err(SessionError::NotCertified { certificate: Box::new(made.certificate) });
+        }
+        let rows = Rows::of(&made);
+        let constraints = Constraints {
+            segments: rows.lines.clone(),
+            edges: rows.edges.clone(),
+            points: rows.points(),
+            near: options.near,
+            wedges: hopeless_pairs(&rows.lines),
+            ..Constraints::default()
+        };
+        let mesh = made.mesh.clone();
+        let live = LiveMesh::with_segments(mesh, &rows.kinds(&made), options.far, &constraints);
+        let live = live.map_err(Error::Optimize)?;
+        let (points, of_slot) = slots_of(&made)?;
+        let circle = smallest_enclosing_circle(&made.mesh.vertices);
+        let circle = circle.unwrap_or(Circle { center: DVec2::ZERO, radius: 0.0 });
+        let (lines, segment_of_line) = (rows.lines, rows.segment_of_line);
+        let frame = Frame { graph: made.graph, lines, segment_of_line };
+        let mut session = Self {
+            live,
+            bounds: options.far,
+            effort,
+            centre: circle.center,
+            radius: circle.radius,
+            size: None,
+            points,
+            of_slot,
+            frame: Some(Arc::new(frame)),
+            history: VecDeque::new(),
+        };
+        let check = session.check();
+        if !check.holds() {
+            return Err(SessionError::NotCertified { certificate: Box::new(check.certificate) });
+        }
+        if size.is_some() {
+            session.set_size(size)?;
+            session.history.clear();
+        }
+        Ok(session)
+    }
+
+    /// What the mesh keeps, found out from scratch.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn check(&self) -> SessionCheck {
+        let snapshot = self.live.snapshot();
+        let Some(frame) = &self.frame else {
+            return self.certificate().into();
+        };
+        let points: Vec<DVec2> = frame.lines.iter().flatten().copied().collect();
+        let pieces: Vec<[u32; 2]> = (0..frame.lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
+        SessionCheck {
+            certificate: self.certificate(),
+            segments: check_segments(&snapshot.mesh, &points, &pieces),
+            out_of_bounds: self.live.out_of_bounds(),
+        }
+    }
+
+    /// The attribute of the region of each triangle of a mesh of this session, 0 if
+    /// it lies in none.
+    pub fn region_attributes(&self, made: &SessionMesh) -> Vec<f64> {
+        let regions = self.frame.as_deref().map_or(&[][..], |frame| &frame.graph.regions);
+        let attribute =
+            |r: &Option<u32>| r.and_then(|r| regions.get(r as usize)).map_or(0.0, |r| r.attribute);
+        made.region_of_triangle.iter().map(attribute).collect()
+    }
+
+    /// The certificate of a mesh with segments, against the bounds near them.
+    pub(super) fn certificate_of_graph(&self, points: &[DVec2]) -> Certificate {
+        let options = CertifyOptions {
+            bounds: self.live.bounds()[0],
+            inputs: Some(points),
+            require_disk: false,
+            ..CertifyOptions::default()
+        };
+        certify(&self.live.snapshot().mesh, &options)
+    }
+
+    /// Adds what a graph has besides: edges, markers, regions.
+    pub(super) fn add_segments(&self, frame: &Frame, snapshot: &Snapshot, made: &mut SessionMesh) {
+        let graph = &frame.graph;
+        let edge = |side: &hexdel_optimize::live::SegmentSide| {
+            let segment = frame.segment_of_line[side.segment];
+            let marker = segment.and_then(|s| graph.segment_markers.get(s as usize)).copied().unwrap_or(0);
+            let marker = if marker == 0 { i32::from(side.boundary) } else { marker };
+            SegmentEdge { ends: side.ends, segment, marker, boundary: side.boundary }
+        };
+        made.edges = snapshot.segment_edges.iter().map(edge).collect();
+        let mut point_of_vertex = vec![None; made.mesh.vertices.len()];
+        for &(PointId(id), v) in &made.points {
+            point_of_vertex[v.index()] = u32::try_from(id).ok();
+        }
+        made.vertex_markers = vertex_markers(graph, &made.edges, &point_of_vertex);
+        let regions: Vec<DVec2> = graph.regions.iter().map(|r| r.point).collect();
+        made.region_of_triangle = self.live.parts(&regions);
+    }
+}
+
+/// The slot of each point of a graph, and the point in each slot.
+#[expect(clippy::type_complexity, reason = "the two fields of a session")]
+fn slots_of(made: &PslgTriangulation) -> Result<(Vec<Option<u32>>, BTreeMap<u32, PointId>), SessionError> {
+    let slots: Vec<Option<u32>> = made.vertex_of_point.iter().map(|v| v.map(|v| v.index() as u32)).collect();
+    let mut of_slot = BTreeMap::new();
+    for (i, slot) in slots.iter().enumerate() {
+        let Some(slot) = *slot else { continue };
+        if let Some(of) = of_slot.insert(slot, PointId(i as u64)) {
+            return Err(SessionError::Duplicate { at: made.graph.points[i], of });
+        }
+    }
+    Ok((slots, of_slot))
+}

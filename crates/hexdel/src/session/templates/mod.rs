@@ -1,0 +1,414 @@
+//! A mesh of templates that points are put into and taken out of.
+//!
+//! The grid is the state. Its rules ask for more where a point comes and for
+//! less where one goes; the tiles that see what changed are asked again what
+//! part of the mesh they are. See `docs/sessions.md`.
+//!
+//! | module | what |
+//! |---|---|
+//! | `grown` | the grid and its mesh, kept in step |
+//! | `cells` | the mesh tile by tile, serial numbers, what has changed |
+//! | `patch` | what is new, made Delaunay and certified |
+//! | `saved` | sessions as text |
+
+mod cells;
+mod grown;
+mod patch;
+mod saved;
+
+use super::{Outcome, PointId, SessionError, SessionMesh, UNDO};
+use crate::mesher::{Mesher, Method};
+use crate::placement::{CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
+use cells::{Replaced, Serials};
+use grown::{Grown, Step, Stuck, certified};
+use hexdel_geom::{Certificate, DVec2, VertexId, closest_pair};
+use hexdel_grid::{Address, Grid, Lattice};
+use std::collections::VecDeque;
+
+/// Steps of level 0 to the corners of an empty domain.
+const STEPS: u32 = 3;
+
+/// A mesh of [`Method::Templates`] that changes.
+///
+/// ```
+/// use hexdel::{DVec2, TemplateSession};
+///
+/// let mut session = TemplateSession::empty(DVec2::ZERO, 1.0)?;
+/// let first = session.insert(DVec2::new(0.1, 0.2))?;
+/// let second = session.insert(DVec2::new(0.1, 0.25))?;
+/// assert!(session.certificate().holds());
+/// assert!(!second.delta.triangles_added.is_empty());
+///
+/// session.remove(&[first.points[0]])?;
+/// session.undo()?;
+/// assert_eq!(session.points().count(), 2);
+/// # Ok::<(), hexdel::SessionError>(())
+/// ```
+///
+/// # Guarantees
+///
+/// Those of a [`Session`](super::Session): after every call the mesh is a
+/// Delaunay mesh of the domain, here with angles of 43.9 to 90 degrees, with every
+/// point a vertex bit for bit. A call that fails changes nothing.
+#[derive(Clone, Debug)]
+pub struct TemplateSession {
+    grown: Grown,
+    /// Each point's place in the order in which the refiner got them; none for
+    /// removed ones.
+    points: Vec<Option<u32>>,
+    present: usize,
+    /// What undoes the last calls, the last one at the end.
+    history: VecDeque<Undo>,
+}
+
+/// What undoes one call.
+#[derive(Clone, Debug)]
+struct Undo {
+    mesh: Before,
+    /// Points and their places in the refiner's order before.
+    points: Vec<(PointId, Option<u32>)>,
+}
+
+#[derive(Clone, Debug)]
+enum Before {
+    Step(Box<Step>),
+    Whole(Box<Grown>),
+}
+
+impl TemplateSession {
+    /// A hexagonal domain without points.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::InvalidDomain`].
+    pub fn empty(centre: DVec2, radius: f64) -> Result<Self, SessionError> {
+        let reach = centre.abs().max_element() + radius;
+        let fits = radius > FINEST * finest_spacing(DVec2::splat(reach)) && reach < MAX_COORDINATE;
+        if !(centre.is_finite() && fits) {
+            return Err(SessionError::InvalidDomain { centre, radius });
+        }
+        let lattice = Lattice::new(centre, radius / f64::from(STEPS));
+        let grown = Grown::new(lattice, STEPS, (&[], &[]), Serials::default())?;
+        Ok(Self { grown, points: Vec::new(), present: 0, history: VecDeque::new() })
+    }
+
+    /// The mesh that a mesher makes of points, as a session. Its method is
+    /// taken to be [`Method::Templates`], with coarsening and without a size.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Mesh`], [`SessionError::Duplicate`] by the number of the
+    /// earlier point.
+    pub fn new(points: &[DVec2], mesher: &Mesher) -> Result<Self, SessionError> {
+        let (lattice, steps) = mesher.clone().method(Method::Templates).coarsest_lattice(points)?;
+        check_distinct(points, 0)?;
+        let ids: Vec<PointId> = (0..points.len() as u64).map(PointId).collect();
+        let grown =
+            mesher.on_threads(|| Ok(Grown::new(lattice, steps, (&ids, points), Serials::default())))??;
+        let orders = (0..points.len() as u32).map(Some).collect();
+        Ok(Self { grown, points: orders, present: points.len(), history: VecDeque::new() })
+    }
+
+    /// Puts a point in.
+    ///
+    /// # Errors
+    ///
+    /// As [`insert_all`](Self::insert_all).
+    pub fn insert(&mut self, point: DVec2) -> Result<Outcome, SessionError> {
+        self.insert_all(&[point])
+    }
+
+    /// Puts points in, all or none.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] for a point that is not finite, outside, there already
+    /// or too close to another or to the rim.
+    ///
+    /// # Complexity
+    ///
+    /// In proportion to what changes and to the number of levels. A point closer
+    /// to the rim than the hexagons along it allow has the whole meshed anew, with
+    /// smaller ones there.
+    pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
+        let before = self.points.len();
+        for &point in points {
+            self.check_point(point)?;
+        }
+        check_distinct(points, before as u64)?;
+        let ids: Vec<PointId> = (before as u64..).map(PointId).take(points.len()).collect();
+        let first = self.grown.refiner.site_ids().len() as u32;
+        match self.grown.exchange(&[], (&ids, points)) {
+            Ok(step) => {
+                self.points.extend((first..).map(Some).take(points.len()));
+                self.present += points.len();
+                let undo = ids.iter().map(|&id| (id, None)).collect();
+                Ok(self.done(step, undo, ids))
+            }
+            Err(Stuck::Levels(error)) => {
+                let (_, mut all) = self.all_points();
+                all.extend_from_slice(points);
+                Err(grown::too_close(&error, &all))
+            }
+            Err(Stuck::Rim | Stuck::Unsettled) => {
+                let (mut all_ids, mut all) = self.all_points();
+                all_ids.extend_from_slice(&ids);
+                all.extend_from_slice(points);
+                self.mesh_anew(self.grown.lattice(), self.grown.steps(), (all_ids, all), ids)
+            }
+        }
+    }
+
+    /// Refuses a point that is outside, or that coordinates or levels do not tell
+    /// from another.
+    fn check_point(&self, at: DVec2) -> Result<(), SessionError> {
+        if !at.is_finite() {
+            return Err(SessionError::NotFinite { at });
+        }
+        let (centre, radius) = self.domain();
+        if !is_inside(at - centre, radius) {
+            return Err(SessionError::Outside { at, radius });
+        }
+        let near = self.grown.refiner.near(at).into_iter();
+        let nearest = near.map(|(site, to)| (to.distance(at), site, to)).min_by(|p, q| p.0.total_cmp(&q.0));
+        let Some((distance, site, to)) = nearest else {
+            return Ok(());
+        };
+        if to == at {
+            return Err(SessionError::Duplicate { at, of: self.grown.of_site[site as usize] });
+        }
+        let levels = self.grown.lattice().spacing(Grid::MAX_LEVELS - 2);
+        let least = finest_spacing(at).max(finest_spacing(to)).max(levels) * CONFLICT_REACH;
+        if distance < least { Err(SessionError::TooClose { at, to, distance, least }) } else { Ok(()) }
+    }
+
+    /// Takes points out, all or none. What they alone asked for goes with them.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::UnknownPoint`].
+    ///
+    /// # Complexity
+    ///
+    /// In proportion to what changes and to the number of levels.
+    pub fn remove(&mut self, ids: &[PointId]) -> Result<Outcome, SessionError> {
+        let mut sorted: Vec<PointId> = ids.to_vec();
+        sorted.sort_unstable();
+        let twice = sorted.windows(2).find(|w| w[0] == w[1]).map(|w| w[0]);
+        let unknown = || sorted.iter().copied().find(|&id| self.order(id).is_none());
+        if let Some(id) = twice.or_else(unknown) {
+            return Err(SessionError::UnknownPoint { id });
+        }
+        let undo: Vec<_> = sorted.iter().map(|&id| (id, self.order(id))).collect();
+        let gone: Vec<usize> = undo.iter().filter_map(|u| u.1).map(|order| order as usize).collect();
+        if let Ok(step) = self.grown.exchange(&gone, (&[], &[])) {
+            for id in sorted {
+                self.points[id.0 as usize] = None;
+            }
+            self.present -= gone.len();
+            return Ok(self.done(step, undo, Vec::new()));
+        }
+        let (mut left, mut all) = (Vec::new(), Vec::new());
+        for (id, at) in self.points().filter(|(id, _)| sorted.binary_search(id).is_err()) {
+            left.push(id);
+            all.push(at);
+        }
+        self.mesh_anew(self.grown.lattice(), self.grown.steps(), (left, all), Vec::new())
+    }
+
+    fn order(&self, id: PointId) -> Option<u32> {
+        self.points.get(usize::try_from(id.0).ok()?).copied().flatten()
+    }
+
+    /// Doubles the radius of the domain. The whole is meshed anew.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] if the larger domain cannot be meshed.
+    pub fn grow(&mut self) -> Result<Outcome, SessionError> {
+        let (centre, radius) = self.domain();
+        let reach = centre.abs().max_element() + 2.0 * radius;
+        if reach >= MAX_COORDINATE {
+            return Err(SessionError::InvalidDomain { centre, radius: 2.0 * radius });
+        }
+        let lattice = Lattice::new(centre, 2.0 * self.grown.lattice().spacing(0));
+        self.mesh_anew(lattice, self.grown.steps(), self.all_points(), Vec::new())
+    }
+
+    /// Meshes all points anew in the same domain, which takes away what points
+    /// that came and went have left.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] if that fails.
+    ///
+    /// # Complexity
+    ///
+    /// That of a mesh made at once.
+    pub fn renew(&mut self) -> Result<Outcome, SessionError> {
+        let (mut lattice, mut steps) = (self.grown.lattice(), self.grown.steps());
+        while steps.is_multiple_of(2) && steps > STEPS {
+            lattice = Lattice::new(lattice.origin(), 2.0 * lattice.spacing(0));
+            steps /= 2;
+        }
+        self.mesh_anew(lattice, steps, self.all_points(), Vec::new())
+    }
+
+    /// Takes the last call back that is not taken back yet; 256 are remembered,
+    /// none across saving.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::NothingToUndo`].
+    ///
+    /// # Complexity
+    ///
+    /// In proportion to what the call changed.
+    pub fn undo(&mut self) -> Result<Outcome, SessionError> {
+        let undo = self.history.pop_back().ok_or(SessionError::NothingToUndo)?;
+        let (delta, remeshed) = match undo.mesh {
+            Before::Step(step) => {
+                let replaced: Replaced = self.grown.take_back(*step);
+                (self.grown.cells.delta(&replaced), false)
+            }
+            Before::Whole(mut old) => {
+                // No number is used again.
+                old.cells.serials = self.grown.cells.serials;
+                let now = std::mem::replace(&mut self.grown, *old);
+                (self.grown.cells.delta_from(&now.cells), true)
+            }
+        };
+        for (id, order) in undo.points {
+            self.points[id.0 as usize] = order;
+        }
+        self.present = self.points.iter().flatten().count();
+        Ok(Outcome { points: Vec::new(), delta, remeshed })
+    }
+
+    /// Meshes points anew, those that are there and new ones.
+    fn mesh_anew(
+        &mut self,
+        lattice: Lattice,
+        steps: u32,
+        (ids, points): (Vec<PointId>, Vec<DVec2>),
+        new: Vec<PointId>,
+    ) -> Result<Outcome, SessionError> {
+        let grown = Grown::new(lattice, steps, (&ids, &points), self.grown.cells.serials)?;
+        let old = std::mem::replace(&mut self.grown, grown);
+        let delta = self.grown.cells.delta_from(&old.cells);
+        self.points.resize(self.points.len() + new.len(), None);
+        let mut orders = vec![None; self.points.len()];
+        for (order, id) in (0..).zip(&ids) {
+            orders[id.0 as usize] = Some(order);
+        }
+        let before = std::mem::replace(&mut self.points, orders);
+        let points = (0..).map(PointId).zip(before).collect();
+        self.present = ids.len();
+        self.remember(Undo { mesh: Before::Whole(Box::new(old)), points });
+        Ok(Outcome { points: new, delta, remeshed: true })
+    }
+
+    /// Ends a call.
+    fn done(&mut self, step: Step, undo: Vec<(PointId, Option<u32>)>, points: Vec<PointId>) -> Outcome {
+        let delta = self.grown.delta(&step);
+        self.remember(Undo { mesh: Before::Step(Box::new(step)), points: undo });
+        Outcome { points, delta, remeshed: false }
+    }
+
+    fn remember(&mut self, undo: Undo) {
+        if self.history.len() == UNDO {
+            self.history.pop_front();
+        }
+        self.history.push_back(undo);
+    }
+
+    /// The points that are there.
+    pub fn points(&self) -> impl Iterator<Item = (PointId, DVec2)> + '_ {
+        let present = |(i, order): (u64, &Option<u32>)| {
+            order.map(|order| (PointId(i), self.grown.refiner.occupant(order as usize).point))
+        };
+        (0..).zip(&self.points).filter_map(present)
+    }
+
+    /// The same as two lists.
+    fn all_points(&self) -> (Vec<PointId>, Vec<DVec2>) {
+        self.points().unzip()
+    }
+
+    /// Numbers of points, vertices and triangles.
+    pub fn counts(&self) -> [usize; 3] {
+        let [vertices, triangles] = self.grown.cells.counts;
+        [self.present, vertices, triangles]
+    }
+
+    /// Centre and circumradius of the domain.
+    pub fn domain(&self) -> (DVec2, f64) {
+        let lattice = self.grown.lattice();
+        (lattice.origin(), f64::from(self.grown.steps()) * lattice.spacing(0))
+    }
+
+    /// The mesh as it stands.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh, but for sorting.
+    pub fn mesh(&self) -> SessionMesh {
+        let mut made = SessionMesh::default();
+        self.fill(&mut made);
+        made
+    }
+
+    fn fill(&self, made: &mut SessionMesh) {
+        let (mesh, names, triangle_serials) = self.grown.cells.whole(&self.grown.pages());
+        let serial = |&name: &u32| self.grown.cells.vertex(name).map_or(0, |v| v.1);
+        made.vertex_serials = names.iter().map(serial).collect();
+        let mut indices: Vec<(u32, usize)> = names.into_iter().zip(0..).collect();
+        indices.sort_unstable();
+        for (id, name) in self.names_of_points() {
+            if let Ok(i) = indices.binary_search_by_key(&name, |n| n.0) {
+                made.points.push((id, VertexId::new(indices[i].1)));
+            }
+        }
+        (made.mesh, made.triangle_serials) = (mesh, triangle_serials);
+    }
+
+    /// The vertices of points.
+    fn names_of_points(&self) -> impl Iterator<Item = (PointId, u32)> + '_ {
+        (0..).zip(&self.points).filter_map(|(i, order)| {
+            let occupant = self.grown.refiner.occupant((*order)? as usize);
+            let at = Address::new(occupant.level, occupant.at.hex);
+            Some((PointId(i), self.grown.dual.name_of(self.grown.refiner.grid(), at)?))
+        })
+    }
+
+    /// The certificate of the whole mesh, made from scratch.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn certificate(&self) -> Certificate {
+        certified(&self.grown.mesh().0, &self.all_points().1)
+    }
+}
+
+/// Whether a place is inside of the hexagon with corners east and west.
+fn is_inside(from_centre: DVec2, radius: f64) -> bool {
+    let height = 0.5 * 3_f64.sqrt();
+    let (x, y) = (from_centre.x.abs(), from_centre.y.abs());
+    y < height * radius && height * x + 0.5 * y < height * radius
+}
+
+/// Refuses points of which two coincide, or are closer than coordinates resolve;
+/// the first of them is point `first`.
+fn check_distinct(points: &[DVec2], first: u64) -> Result<(), SessionError> {
+    let Some(pair) = closest_pair(points) else {
+        return Ok(());
+    };
+    let (to, at) = (points[pair.a], points[pair.b]);
+    if to == at {
+        return Err(SessionError::Duplicate { at, of: PointId(first + pair.a as u64) });
+    }
+    let least = finest_spacing(at).max(finest_spacing(to)) * CONFLICT_REACH;
+    let distance = pair.distance;
+    if distance < least { Err(SessionError::TooClose { at, to, distance, least }) } else { Ok(()) }
+}

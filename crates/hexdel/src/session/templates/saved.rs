@@ -1,0 +1,217 @@
+//! Sessions of templates as text (RON), to be continued.
+
+use super::cells::Serials;
+use super::grown::{Grown, certified};
+use super::{PointId, TemplateSession};
+use crate::placement::{FINEST, MAX_COORDINATE, finest_spacing};
+use crate::session::SessionError;
+use hexdel_classify::Domain;
+use hexdel_geom::DVec2;
+use hexdel_grid::{Address, Hex, Lattice};
+use hexdel_refine::{Refiner, RuleSet};
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+
+/// The version of the format.
+const VERSION: u32 = 1;
+
+/// How the text begins.
+const BEGINNING: &str = "(templates:";
+
+#[derive(Serialize, Deserialize)]
+struct Document {
+    /// The version; its name tells the text from that of other sessions.
+    templates: u32,
+    centre: DVec2,
+    /// Spacing of level 0, and steps of it to the corners.
+    spacing: f64,
+    steps: u32,
+    /// Points that ever were, and those that are with their levels.
+    named: u64,
+    points: Vec<(u64, DVec2, u8)>,
+    /// Level, first hexagon and subdivided hexagons of each tile that has any.
+    tiles: Vec<(u8, i64, i64, u64)>,
+    /// Vertices that do not lie where the templates put them.
+    moved: Vec<(u8, i64, i64, DVec2)>,
+    /// Serial numbers in the order of the mesh, as firsts and counts of runs.
+    vertices: Vec<(u64, u64)>,
+    triangles: Vec<(u64, u64)>,
+    /// The last ones given out.
+    last: (u64, u64),
+}
+
+impl TemplateSession {
+    /// Whether a text looks like a saved session of templates.
+    pub fn is_saved_in(text: &str) -> bool {
+        text.trim_start().starts_with(BEGINNING)
+    }
+
+    /// The session as text. What is read back from it goes on as this one would,
+    /// except that the calls so far cannot be undone.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Unreadable`] if it cannot be written.
+    pub fn to_ron(&self) -> Result<String, SessionError> {
+        let Grown { refiner, dual, cells, .. } = &self.grown;
+        let (grid, lattice) = (refiner.grid(), self.grown.lattice());
+        let mut tiles = Vec::new();
+        for level in 0..grid.tiles().levels() as u8 {
+            let busy = grid.tiles().level(level).iter().filter(|t| t.subdivided != 0);
+            tiles.extend(busy.map(|t| (level, t.first().q, t.first().r, t.subdivided)));
+        }
+        tiles.sort_unstable();
+        let mut moved: Vec<(u8, i64, i64, DVec2)> = Vec::new();
+        for (&name, &to) in &cells.moved {
+            let at = dual.address(grid, name);
+            moved.push((at.level, at.hex.q, at.hex.r, to));
+        }
+        moved.sort_unstable_by_key(|m| (m.0, m.1, m.2));
+        let pages = self.grown.pages();
+        let of = |page: &u32| &cells.by_page[*page as usize];
+        let point = |(id, at): (PointId, DVec2)| {
+            let level = self.order(id).map_or(0, |order| refiner.occupant(order as usize).level);
+            (id.0, at, level)
+        };
+        let document = Document {
+            templates: VERSION,
+            centre: lattice.origin(),
+            spacing: lattice.spacing(0),
+            steps: self.grown.steps(),
+            named: self.points.len() as u64,
+            points: self.points().map(point).collect(),
+            tiles,
+            moved,
+            vertices: runs(pages.iter().flat_map(|p| of(p).serials.iter().copied())),
+            triangles: runs(pages.iter().flat_map(|p| of(p).triangles.iter().map(|t| t.serial))),
+            last: (cells.serials.vertex, cells.serials.triangle),
+        };
+        ron::to_string(&document).map_err(|e| SessionError::Unreadable { message: e.to_string() })
+    }
+
+    /// Reads what [`to_ron`](Self::to_ron) wrote. The grid is held against its
+    /// rules, and the mesh is certified anew.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] for what is no such text, or of a mesh that does not
+    /// hold.
+    pub fn from_ron(text: &str) -> Result<Self, SessionError> {
+        let document: Document = ron::from_str(text).map_err(|e| unreadable(&e.to_string()))?;
+        let orders = document.check()?;
+        let lattice = Lattice::new(document.centre, document.spacing);
+        let tiles = document.tiles.iter().map(|&(level, q, r, bits)| (level, Hex::new(q, r), bits));
+        let sites: Vec<_> = document.points.iter().map(|p| (p.1, Some(p.2))).collect();
+        let refiner = Refiner::restored(lattice, RuleSet::extended(), tiles, &sites)
+            .map_err(|e| unreadable(&e.to_string()))?;
+        if Domain::around(refiner.grid(), 0).is_none_or(|around| around.radius > document.steps) {
+            return Err(unreadable("hexagons beyond the rim"));
+        }
+        let ids: Vec<PointId> = document.points.iter().map(|p| PointId(p.0)).collect();
+        let mut grown = Grown::of(refiner, document.steps, &ids, Serials::default());
+        document.restore_cells(&mut grown)?;
+        let points: Vec<DVec2> = document.points.iter().map(|p| p.1).collect();
+        let certificate = certified(&grown.mesh().0, &points);
+        if !certificate.holds() {
+            return Err(SessionError::NotCertified { certificate: Box::new(certificate) });
+        }
+        Ok(Self { grown, points: orders, present: points.len(), history: VecDeque::new() })
+    }
+}
+
+impl Document {
+    /// Checks what stands alone. Returns the place of each point in the list.
+    fn check(&self) -> Result<Vec<Option<u32>>, SessionError> {
+        if self.templates != VERSION {
+            return Err(unreadable(&format!("version {}, not {VERSION}", self.templates)));
+        }
+        let (centre, radius) = (self.centre, self.spacing * f64::from(self.steps));
+        let reach = centre.abs().max_element() + radius;
+        let fits = radius > FINEST * finest_spacing(DVec2::splat(reach)) && reach < MAX_COORDINATE;
+        if !(centre.is_finite() && fits && (1..=Domain::MAX_RADIUS).contains(&self.steps)) {
+            return Err(SessionError::InvalidDomain { centre, radius });
+        }
+        if self.named > u64::from(u32::MAX) || self.named < self.points.len() as u64 {
+            return Err(unreadable("more points than there may be"));
+        }
+        let mut orders = vec![None; self.named as usize];
+        for (order, &(id, at, _)) in (0..).zip(&self.points) {
+            if !at.is_finite() {
+                return Err(SessionError::NotFinite { at });
+            }
+            if !super::is_inside(at - centre, radius) {
+                return Err(SessionError::Outside { at, radius });
+            }
+            match orders.get_mut(id as usize) {
+                Some(place @ None) => *place = Some(order),
+                _ => return Err(SessionError::Points { id: PointId(id) }),
+            }
+        }
+        super::check_distinct(&self.points.iter().map(|p| p.1).collect::<Vec<_>>(), 0)?;
+        Ok(orders)
+    }
+
+    /// Gives vertices and triangles their serial numbers, and moves what was
+    /// moved.
+    fn restore_cells(&self, grown: &mut Grown) -> Result<(), SessionError> {
+        let [vertices, triangles] = grown.cells.counts;
+        let mut serials = [
+            listed(&self.vertices, vertices, self.last.0)?.into_iter(),
+            listed(&self.triangles, triangles, self.last.1)?.into_iter(),
+        ];
+        for page in grown.pages() {
+            let cell = &mut grown.cells.by_page[page as usize];
+            for (serial, new) in cell.serials.iter_mut().zip(&mut serials[0]) {
+                *serial = new;
+            }
+            for (t, new) in cell.triangles.iter_mut().zip(&mut serials[1]) {
+                t.serial = new;
+            }
+        }
+        grown.cells.serials = Serials { vertex: self.last.0, triangle: self.last.1 };
+        for &(level, q, r, to) in &self.moved {
+            let in_range = level < hexdel_grid::Grid::MAX_LEVELS && q.abs().max(r.abs()) < 1 << 52;
+            let name = in_range
+                .then(|| grown.dual.name_of(grown.refiner.grid(), Address::new(level, Hex::new(q, r))))
+                .flatten()
+                .filter(|&name| to.is_finite() && grown.cells.vertex(name).is_some());
+            let name = name.ok_or_else(|| unreadable("a vertex moved that is not there"))?;
+            grown.cells.moved.insert(name, to);
+        }
+        Ok(())
+    }
+}
+
+/// Numbers as firsts and lengths of runs of consecutive ones.
+fn runs(numbers: impl Iterator<Item = u64>) -> Vec<(u64, u64)> {
+    let mut runs: Vec<(u64, u64)> = Vec::new();
+    for n in numbers {
+        match runs.last_mut() {
+            Some((first, count)) if *first + *count == n => *count += 1,
+            _ => runs.push((n, 1)),
+        }
+    }
+    runs
+}
+
+/// The numbers of runs: so many different ones, from 1 to `last`.
+fn listed(runs: &[(u64, u64)], count: usize, last: u64) -> Result<Vec<u64>, SessionError> {
+    let total = runs.iter().try_fold(0_u64, |sum, run| sum.checked_add(run.1));
+    let ends = |&(first, count): &(u64, u64)| {
+        first >= 1 && first.checked_add(count).is_some_and(|end| end <= last + 1)
+    };
+    if last == u64::MAX || total != Some(count as u64) || !runs.iter().all(ends) {
+        return Err(unreadable("serial numbers that do not fit the mesh"));
+    }
+    let all: Vec<u64> = runs.iter().flat_map(|&(first, count)| first..first + count).collect();
+    let mut sorted = all.clone();
+    sorted.sort_unstable();
+    match sorted.windows(2).find(|w| w[0] == w[1]) {
+        Some(w) => Err(unreadable(&format!("serial number {} twice", w[0]))),
+        None => Ok(all),
+    }
+}
+
+fn unreadable(message: &str) -> SessionError {
+    SessionError::Unreadable { message: message.to_owned() }
+}

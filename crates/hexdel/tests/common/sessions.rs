@@ -1,0 +1,58 @@
+//! Sessions: a copy kept by deltas, and calls that are refused.
+
+use hexdel::optimize::live::Delta;
+use hexdel::{DVec2, Outcome, Session, SessionError, VertexId};
+use std::collections::BTreeMap;
+
+/// A copy of a mesh that is kept by deltas alone.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Copy {
+    pub(crate) vertices: BTreeMap<u64, DVec2>,
+    pub(crate) triangles: BTreeMap<u64, [u64; 3]>,
+}
+
+impl Copy {
+    pub(crate) fn of(session: &Session) -> Self {
+        let made = session.mesh();
+        let serial = |t: &[VertexId; 3]| t.map(|v| made.vertex_serials[v.index()]);
+        Self {
+            vertices: made.vertex_serials.iter().copied().zip(made.mesh.vertices.clone()).collect(),
+            triangles: made
+                .triangle_serials
+                .iter()
+                .copied()
+                .zip(made.mesh.triangles.iter().map(serial))
+                .collect(),
+        }
+    }
+
+    pub(crate) fn follow(&mut self, delta: &Delta) {
+        for t in &delta.triangles_removed {
+            assert!(self.triangles.remove(t).is_some(), "triangle {t} was not there");
+        }
+        for v in &delta.vertices_removed {
+            assert!(self.vertices.remove(v).is_some(), "vertex {v} was not there");
+        }
+        for &(v, at) in &delta.vertices_added {
+            assert!(self.vertices.insert(v, at).is_none(), "vertex {v} was there");
+        }
+        for &(v, at) in &delta.vertices_moved {
+            assert!(self.vertices.insert(v, at).is_some_and(|old| old != at), "vertex {v} did not move");
+        }
+        for &(t, corners) in &delta.triangles_added {
+            assert!(self.triangles.insert(t, corners).is_none(), "triangle {t} was there");
+        }
+    }
+}
+
+/// Asserts that a call is refused and has changed nothing.
+#[track_caller]
+pub(crate) fn refused(
+    session: &mut Session,
+    call: impl FnOnce(&mut Session) -> Result<Outcome, SessionError>,
+) -> SessionError {
+    let before = session.to_ron().unwrap();
+    let error = call(session).expect_err("the call is refused");
+    assert_eq!(session.to_ron().unwrap(), before, "after {error}");
+    error
+}

@@ -1,0 +1,236 @@
+//! Sessions of templates: what holds after every call, and what a call that
+//! fails leaves.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
+
+#[path = "common/sessions.rs"]
+#[allow(dead_code, reason = "sessions of both kinds share it")]
+mod common;
+
+use common::Copy;
+use hexdel::{DVec2, Mesher, Method, Outcome, PointId, SessionError, TemplateSession, VertexId, generate};
+use proptest::prelude::*;
+
+fn points(n: usize, seed: u64) -> Vec<DVec2> {
+    generate::generate(generate::Kind::Uniform, n, seed)
+}
+
+fn copy(session: &TemplateSession) -> Copy {
+    let made = session.mesh();
+    let corners = |t: &[VertexId; 3]| t.map(|v| made.vertex_serials[v.index()]);
+    Copy {
+        vertices: made.vertex_serials.iter().copied().zip(made.mesh.vertices.iter().copied()).collect(),
+        triangles: made
+            .triangle_serials
+            .iter()
+            .copied()
+            .zip(made.mesh.triangles.iter().map(corners))
+            .collect(),
+    }
+}
+
+/// Triangles of the same points meshed at once, in the same domain.
+fn at_once(session: &TemplateSession) -> usize {
+    let points: Vec<DVec2> = session.points().map(|p| p.1).collect();
+    TemplateSession::new(&points, &Mesher::new()).unwrap().counts()[2]
+}
+
+/// What every state keeps.
+fn check(session: &TemplateSession) {
+    let certificate = session.certificate();
+    assert!(certificate.holds(), "{:?}", certificate.violations);
+    let made = session.mesh();
+    let there: Vec<(PointId, DVec2)> =
+        made.points.iter().map(|&(id, v)| (id, made.mesh.vertices[v.index()])).collect();
+    assert_eq!(there, session.points().collect::<Vec<_>>());
+    assert_eq!(session.counts(), [there.len(), made.mesh.vertices.len(), made.mesh.triangles.len()]);
+}
+
+/// Asserts that a call is refused and has changed nothing.
+fn refused(
+    session: &mut TemplateSession,
+    call: impl FnOnce(&mut TemplateSession) -> Result<Outcome, SessionError>,
+) -> SessionError {
+    let before = session.to_ron().unwrap();
+    let error = call(session).expect_err("the call is refused");
+    assert_eq!(session.to_ron().unwrap(), before, "after {error}");
+    error
+}
+
+/// One call of a random sequence.
+#[derive(Clone, Debug)]
+enum Call {
+    Insert(f64, f64),
+    Near(usize, f64, f64),
+    Remove(usize),
+    Undo,
+    Grow,
+}
+
+fn call() -> impl Strategy<Value = Call> {
+    prop_oneof![
+        8 => (-1.1..1.1, -1.0..1.0).prop_map(|(x, y)| Call::Insert(x, y)),
+        3 => (0..100_usize, 0.0..6.3, 1.0..6.0).prop_map(|(i, a, e)| Call::Near(i, a, e)),
+        5 => (0..100_usize).prop_map(Call::Remove),
+        3 => Just(Call::Undo),
+        1 => Just(Call::Grow),
+    ]
+}
+
+fn run(session: &mut TemplateSession, call: &Call) -> Result<Outcome, SessionError> {
+    let all: Vec<(PointId, DVec2)> = session.points().collect();
+    let pick = |i: usize| all.get(i % all.len().max(1)).copied();
+    match *call {
+        Call::Insert(x, y) => session.insert(DVec2::new(x, y)),
+        Call::Near(i, angle, exponent) => {
+            let at = pick(i).map_or(DVec2::ZERO, |p| p.1);
+            session.insert(at + DVec2::from_angle(angle) * 10_f64.powf(-exponent))
+        }
+        Call::Remove(i) => session.remove(&[pick(i).map_or(PointId(7), |p| p.0)]),
+        Call::Undo => session.undo(),
+        Call::Grow => session.grow(),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_state_holds_and_every_delta_tells(calls in prop::collection::vec(call(), 1..40)) {
+        let mut session = TemplateSession::empty(DVec2::ZERO, 1.0).unwrap();
+        let mut told = copy(&session);
+        for call in &calls {
+            let before = session.to_ron().unwrap();
+            if let Ok(outcome) = run(&mut session, call) {
+                told.follow(&outcome.delta);
+            } else {
+                prop_assert_eq!(session.to_ron().unwrap(), before, "after {:?}", call);
+            }
+            check(&session);
+            let is = copy(&session);
+            let first = told.triangles.iter().zip(&is.triangles).find(|(a, b)| a != b);
+            prop_assert!(told.triangles == is.triangles, "triangles after {:?}: {:?}", call, first);
+            let first = told.vertices.iter().zip(&is.vertices).find(|(a, b)| a != b);
+            prop_assert!(told.vertices == is.vertices, "vertices after {:?}: {:?}", call, first);
+        }
+        let saved = session.to_ron().unwrap();
+        let mut again = TemplateSession::from_ron(&saved).unwrap();
+        prop_assert_eq!(again.to_ron().unwrap(), saved);
+        prop_assert!(again.mesh() == session.mesh());
+        for next in [Call::Insert(0.123, 0.456), Call::Remove(3), Call::Near(1, 1.0, 2.0)] {
+            prop_assert_eq!(run(&mut session, &next), run(&mut again, &next));
+            prop_assert_eq!(again.to_ron().unwrap(), session.to_ron().unwrap());
+        }
+    }
+}
+
+#[test]
+fn one_by_one_and_back_is_as_good_as_at_once() {
+    let all = points(300, 3);
+    let made = TemplateSession::new(&all, &Mesher::new().domain_radius(1.5)).unwrap();
+    let (centre, radius) = made.domain();
+    let mut session = TemplateSession::empty(centre, radius).unwrap();
+    for &p in &all {
+        session.insert(p).unwrap();
+    }
+    check(&session);
+    let near = |a: usize, b: usize| (a as f64 / b as f64 - 1.0).abs() < 0.1;
+    assert!(near(session.counts()[2], made.counts()[2]), "{:?} {:?}", session.counts(), made.counts());
+    for i in (0..300).filter(|i| i % 3 != 0) {
+        session.remove(&[PointId(i)]).unwrap();
+    }
+    check(&session);
+    assert!(near(session.counts()[2], at_once(&session)), "{:?} {}", session.counts(), at_once(&session));
+}
+
+#[test]
+fn what_points_have_left_behind_can_be_taken_away() {
+    // Half of a square lattice: its points hold each other down across all of it.
+    let all = generate::generate(generate::Kind::Grid, 100, 0);
+    let mut session = TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap();
+    session.insert_all(&all).unwrap();
+    for i in (0..100).filter(|i| (i / 10 + i) % 2 == 0) {
+        session.remove(&[PointId(i)]).unwrap();
+    }
+    let before = session.counts()[2];
+    assert!(session.renew().unwrap().remeshed);
+    check(&session);
+    let (mut once, left) = (TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap(), session.points());
+    once.insert_all(&left.map(|p| p.1).collect::<Vec<_>>()).unwrap();
+    assert!(session.counts()[2] <= before && session.counts() == once.counts());
+}
+
+#[test]
+fn the_mesh_is_the_one_of_the_method() {
+    let all = points(200, 8);
+    let session = TemplateSession::new(&all, &Mesher::new()).unwrap();
+    let made = Mesher::new().method(Method::Templates).triangulate(&all).unwrap();
+    assert_eq!(session.counts()[1..], [made.mesh.vertices.len(), made.mesh.triangles.len()]);
+    assert_eq!(session.domain(), (made.patch.centre, made.patch.radius));
+}
+
+#[test]
+fn undo_goes_back_step_by_step() {
+    let mut session = TemplateSession::new(&points(30, 2), &Mesher::new().domain_radius(1.0)).unwrap();
+    let mut states = vec![session.mesh()];
+    let inserted = session.insert(DVec2::new(0.5, 0.5)).unwrap();
+    states.push(session.mesh());
+    session.remove(&[PointId(3), inserted.points[0]]).unwrap();
+    states.push(session.mesh());
+    session.insert_all(&[DVec2::new(0.51, 0.5), DVec2::new(0.1, 0.9)]).unwrap();
+    states.push(session.mesh());
+    assert!(session.grow().unwrap().remeshed);
+    for state in states.into_iter().rev() {
+        session.undo().unwrap();
+        assert!(session.mesh() == state);
+        check(&session);
+    }
+    assert_eq!(session.undo(), Err(SessionError::NothingToUndo));
+    // No number is used again.
+    assert_eq!(session.insert(DVec2::new(0.5, 0.5)).unwrap().points, [PointId(33)]);
+}
+
+#[test]
+fn bad_calls_are_refused_and_change_nothing() {
+    let mut session = TemplateSession::empty(DVec2::ZERO, 1.0).unwrap();
+    session.insert_all(&[DVec2::new(0.1, 0.2), DVec2::new(-0.3, 0.1)]).unwrap();
+    let mut insert = |points: &[DVec2]| refused(&mut session, |s| s.insert_all(points));
+    let (first, inside) = (DVec2::new(0.1, 0.2), DVec2::new(0.4, 0.4));
+    assert!(matches!(insert(&[inside, DVec2::NAN]), SessionError::NotFinite { .. }));
+    assert!(matches!(insert(&[inside, DVec2::new(2.0, 0.0)]), SessionError::Outside { .. }));
+    assert!(matches!(insert(&[first]), SessionError::Duplicate { of: PointId(0), .. }));
+    assert!(matches!(insert(&[inside, inside]), SessionError::Duplicate { of: PointId(2), .. }));
+    assert!(matches!(insert(&[first + DVec2::new(1e-15, 0.0)]), SessionError::TooClose { .. }));
+    assert!(matches!(insert(&[inside, inside + 1e-15]), SessionError::TooClose { .. }));
+    assert!(matches!(insert(&[DVec2::new(0.0, 0.866)]), SessionError::AtRim { .. }));
+    let unknown = refused(&mut session, |s| s.remove(&[PointId(0), PointId(9)]));
+    assert_eq!(unknown, SessionError::UnknownPoint { id: PointId(9) });
+    let twice = refused(&mut session, |s| s.remove(&[PointId(1), PointId(1)]));
+    assert_eq!(twice, SessionError::UnknownPoint { id: PointId(1) });
+    for radius in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
+        let error = TemplateSession::empty(DVec2::ONE, radius).unwrap_err();
+        assert!(matches!(error, SessionError::InvalidDomain { .. }), "{radius}");
+    }
+    assert!(TemplateSession::new(&[], &Mesher::new()).is_err());
+}
+
+#[test]
+fn text_that_is_no_session_is_refused() {
+    let mut session = TemplateSession::empty(DVec2::ZERO, 1.0).unwrap();
+    session.insert_all(&[DVec2::new(0.1, 0.2), DVec2::new(0.12, 0.2)]).unwrap();
+    let saved = session.to_ron().unwrap();
+    assert!(TemplateSession::is_saved_in(&saved));
+    assert!(TemplateSession::from_ron("").is_err());
+    // Every number replaced by others: refused or a session, but no panic.
+    let mut at = 0;
+    while let Some(start) = saved[at..].find(|c: char| c.is_ascii_digit()).map(|i| i + at) {
+        let end = saved[start..].find(|c: char| !c.is_ascii_digit()).map_or(saved.len(), |i| i + start);
+        for other in ["0", "1", "7", "255", "4294967296", "18446744073709551615"] {
+            let text = format!("{}{other}{}", &saved[..start], &saved[end..]);
+            if let Ok(session) = TemplateSession::from_ron(&text) {
+                check(&session);
+            }
+        }
+        at = end;
+    }
+}
