@@ -133,7 +133,7 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
             work.commit();
             return true;
         }
-        if last && state.energy < KEEP_BELOW * before {
+        if last && state.energy < KEEP_BELOW * before && work.stays_valid() {
             work.commit();
             return false;
         }
@@ -171,9 +171,10 @@ fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
             if keep_if_solved(work, state) {
                 return;
             }
+            let valid = work.stays_valid();
             work.mesh.rollback();
             let gain = state.energy - before;
-            if state.energy < KEEP_BELOW * before && best.is_none_or(|b| gain < b.0) {
+            if valid && state.energy < KEEP_BELOW * before && best.is_none_or(|b| gain < b.0) {
                 best = Some((gain, action, r));
             }
         }
@@ -261,7 +262,7 @@ fn refine(work: &mut Work, t: u32, below: f64) {
         }
     }
     load_rings(work, &verts, 3);
-    if work.solve(FINISH).energy < below.max(before) {
+    if work.solve(FINISH).energy < below.max(before) && work.stays_valid() {
         work.commit();
     } else {
         work.mesh.rollback();

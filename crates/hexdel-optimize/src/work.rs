@@ -1,5 +1,7 @@
 //! One mesh under work: the state the operations share.
 
+use hexdel_geom::orient2d;
+
 use crate::constraints::Rules;
 use crate::flip::{flip_patch, wants_flip};
 use crate::mesh::{Mesh, Motion};
@@ -129,6 +131,23 @@ impl<'a> Work<'a> {
             && (!self.rules.check_delaunay() || self.patch_is_delaunay())
             && (!self.mesh.is_constrained() || self.places_hold())
             && (!self.rules.limits_areas() || self.areas_hold())
+    }
+
+    /// Whether nothing that changed since the last commit is clockwise or flat. A
+    /// mesh with segments comes without such triangles, so that no step towards
+    /// the bounds may make one; other starts may have some to be repaired.
+    pub(crate) fn stays_valid(&self) -> bool {
+        let mesh = &self.mesh;
+        if !mesh.is_constrained() {
+            return true;
+        }
+        let turns_left = |t: u32| {
+            let [a, b, c] = mesh.tri[t as usize].v.map(|v| mesh.pos[v as usize]);
+            !mesh.tri[t as usize].alive() || orient2d(a, b, c) > 0.0
+        };
+        let mut valid = self.patch.triangles().iter().all(|&t| turns_left(t));
+        mesh.changed(|t| valid = valid && turns_left(t));
+        valid
     }
 
     /// Whether what has been near a segment and is no more keeps the bounds

@@ -118,20 +118,16 @@ pub(super) fn place_occupants(
     relocation: Relocation,
     vertices: &mut [DVec2],
 ) -> Vec<VertexId> {
-    // Tile by tile, as vertices are numbered: points may come in any order.
-    let key = |(i, o): (usize, &Occupant)| (o.level, o.tile, i as u32);
-    let mut order: Vec<_> = occupants.par_iter().enumerate().map(key).collect();
-    order.par_sort_unstable();
-    let mut of_occupant = vec![VertexId::new(0); occupants.len()];
-    for some in order.chunks(OCCUPANTS_AT_ONCE) {
-        let look_up = |&(_, _, i): &(u8, TileId, u32)| Moved::of(layout, &occupants[i as usize], relocation);
+    let mut of_occupant = Vec::with_capacity(occupants.len());
+    for some in occupants.chunks(OCCUPANTS_AT_ONCE) {
+        let look_up = |occupant| Moved::of(layout, occupant, relocation);
         let found: Vec<_> = some.par_iter().map(look_up).collect();
-        for (moved, &(_, _, i)) in found.into_iter().zip(some) {
-            vertices[moved.vertex.index()] = moved.point;
+        for (moved, occupant) in found.into_iter().zip(some) {
+            vertices[moved.vertex.index()] = occupant.point;
             for (vertex, to) in moved.ring.into_iter().flatten() {
                 vertices[vertex.index()] = to;
             }
-            of_occupant[i as usize] = moved.vertex;
+            of_occupant.push(moved.vertex);
         }
     }
     of_occupant
@@ -150,7 +146,6 @@ pub(super) fn moved_by(
 /// The vertices that an input point moves.
 struct Moved {
     vertex: VertexId,
-    point: DVec2,
     /// The ring and where it goes, if it does.
     ring: Option<[(VertexId, DVec2); 6]>,
 }
@@ -167,7 +162,7 @@ impl Moved {
                 (vertex_beside(layout, level, id, at + d.step()), to)
             })
         });
-        Self { vertex: vertex_beside(layout, level, id, at), point: occupant.point, ring }
+        Self { vertex: vertex_beside(layout, level, id, at), ring }
     }
 }
 

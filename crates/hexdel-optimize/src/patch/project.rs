@@ -96,6 +96,10 @@ impl Patch {
             }
             let m = place.view(m, limits);
             let (low, high) = limits.outside(&m);
+            if low.is_none() && (m.cross <= 0.0 || m.cross.is_nan()) {
+                // Collapsed, or lost beyond all numbers: no push could help.
+                return f64::INFINITY;
+            }
             if let Some((k, g)) = low {
                 energy += self.push(t, k, g, limits.lower_turn());
             }
