@@ -36,8 +36,7 @@ use std::path::{Path, PathBuf};
     points, counts, certify      what there is\n  \
     mesh FILE, save FILE         write the mesh; the session, to be loaded\n  \
     undo, quit                   take the last change back; end\n\n\
-    An answer has \"ok\", and what changed by serial numbers or the \"error\"; after an error\n\
-    the session is as it was. Exits with 2 if there was one.\n\n\
+    Answers have \"ok\", and what changed or the \"error\", which changes nothing; exits with 2 then.\n\n\
     Example:\n  \
     printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session"
 )]
@@ -48,18 +47,16 @@ pub(crate) struct Args {
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]
     brief: bool,
-    /// How meshes are made that a session begins with and goes on with; a loaded one goes on as it was
-    #[arg(long, value_enum, default_value_t)]
+    /// compact, or templates: many triangles, fast changes, no sizes [default: compact]
+    #[arg(long, value_enum, default_value_t, hide_possible_values = true, hide_default_value = true)]
     method: SessionMethod,
 }
 
 /// The methods that sessions know.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 enum SessionMethod {
-    /// Optimised: few triangles
     #[default]
     Compact,
-    /// The paper's templates: many triangles, a change in a millisecond, no sizes
     Templates,
 }
 

