@@ -25,6 +25,24 @@ pub enum ValidateError {
         /// The largest coordinate supported.
         limit: f64,
     },
+    /// All points lie so close together that products of their distances leave
+    /// the range of numbers.
+    #[error("the points are within {extent:e} of each other, less than {limit:e}: scale them up")]
+    TooSmall {
+        /// The longer side of the rectangle around them.
+        extent: f64,
+        /// The smallest extent supported.
+        limit: f64,
+    },
+    /// A segment could not be followed from one end to the other: around it
+    /// points are so close that exact arithmetic leaves the range of numbers.
+    #[error("segment {segment} could not be followed near ({}, {}): points are too close there", at.x, at.y)]
+    NotFollowed {
+        /// Index of the segment.
+        segment: usize,
+        /// Where.
+        at: DVec2,
+    },
     /// A hole or the point of a region is not finite.
     #[error("{item} {index} at ({}, {}) is not finite", point.x, point.y)]
     NotFinite {

@@ -92,7 +92,12 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     while !left.elsewhere.is_empty() && retries < options.retries && !mesher.deadline.is_over() {
         demands.extend(left.elsewhere.iter().map(|&t| demand_at(&best, t)));
         retries += 1;
-        let net = mesher.compacted(mesher.attempt(&demands, monitor)?, monitor)?;
+        // A retry may be refused for want of room: then what there is is the best.
+        let net = match mesher.attempt(&demands, monitor) {
+            Ok(net) => mesher.compacted(net, monitor)?,
+            Err(PslgError::Cancelled(c)) => return Err(c.into()),
+            Err(_) => break,
+        };
         let now = mesher.left(&net);
         // What one more level has not helped is not for the next to help.
         if now.score() >= left.score() {

@@ -131,6 +131,17 @@ pub fn repair(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), Valid
     Ok(mender.finish())
 }
 
+/// The cell of a coordinate, then those beside it: as wide as the tolerance, or
+/// the coordinate itself where its neighbours are farther away than that.
+fn cells(c: f64, tolerance: f64) -> Vec<u64> {
+    // Its neighbours are `EPSILON / 2` times itself away, at least.
+    let cell = (c / tolerance).floor();
+    if tolerance == 0.0 || cell.abs() > 4.0 / f64::EPSILON {
+        return vec![(c + 0.0).to_bits()];
+    }
+    [0.0, -1.0, 1.0].map(|step| (cell + step + 0.0).to_bits()).to_vec()
+}
+
 /// A part of a segment, or of several.
 #[derive(Clone)]
 struct Part {
@@ -156,24 +167,14 @@ struct Mender<'a> {
 impl Mender<'_> {
     /// Each point goes into the first one within the tolerance.
     fn merge_points(&mut self) {
-        let mut grid: FxHashMap<[i64; 2], Vec<u32>> = FxHashMap::default();
-        let tolerance = self.tolerance;
-        let cell = |p: DVec2| {
-            // Without a tolerance only equal points meet.
-            if tolerance == 0.0 {
-                return [(p.x + 0.0).to_bits() as i64, (p.y + 0.0).to_bits() as i64];
-            }
-            [p.x, p.y].map(|c| (c / tolerance).floor() as i64)
-        };
-        let reach = i64::from(self.tolerance > 0.0);
+        let mut grid: FxHashMap<[u64; 2], Vec<u32>> = FxHashMap::default();
         for i in 0..self.points.len() as u32 {
             if self.into[i as usize] != i {
                 continue;
             }
             let p = self.points[i as usize];
-            let [x, y] = cell(p);
-            let around = (-reach..=reach)
-                .flat_map(|dx| (-reach..=reach).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)]));
+            let [x, y] = [p.x, p.y].map(|c| cells(c, self.tolerance));
+            let around = x.iter().flat_map(|&x| y.iter().map(move |&y| [x, y]));
             let first = around
                 .filter_map(|key| grid.get(&key))
                 .flatten()
@@ -185,7 +186,7 @@ impl Mender<'_> {
                     self.into[i as usize] = j;
                     self.report_merge(i, j);
                 }
-                None => grid.entry([x, y]).or_default().push(i),
+                None => grid.entry([x[0], y[0]]).or_default().push(i),
             }
         }
         for i in 0..self.into.len() {

@@ -15,6 +15,9 @@ use hexdel_geom::{DVec2, PointSet, PointsError, Pslg};
 /// Largest coordinate: predicates take products of four, and of differences.
 const MAX_COORDINATE: f64 = 1e70;
 
+/// Smallest extent of several points, for the same reason.
+const MIN_EXTENT: f64 = 1e-60;
+
 /// A part of a segment between two neighbouring points on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
@@ -159,6 +162,11 @@ fn examine(pslg: &Pslg) -> Result<(Validated, Vec<ValidateError>), ValidateError
 }
 
 fn check_range(points: &PointSet) -> Result<(), ValidateError> {
+    let (min, max) = bounding_box(points.sites());
+    let extent = (max - min).max_element();
+    if points.sites().len() > 1 && extent < MIN_EXTENT {
+        return Err(ValidateError::TooSmall { extent, limit: MIN_EXTENT });
+    }
     let beyond = |p: &DVec2| p.abs().max_element() > MAX_COORDINATE;
     match points.sites().iter().position(beyond) {
         Some(site) => Err(ValidateError::OutOfRange {
@@ -259,9 +267,9 @@ impl Examiner {
                 };
                 self.of.pieces.push(Piece { ends: [site(v), site(vertex)], segment: segment as u32 });
                 self.of.plane.lines.push([self.of.plane.at(v), self.of.plane.at(vertex)]);
+                // Flips recover an edge that crosses no other constrained one.
                 let made = self.of.plane.recover(v, vertex, crossed, number);
-                debug_assert!(made, "flips recover an edge that crosses no other constrained one");
-                Ok(vertex)
+                if made { Ok(vertex) } else { Err(self.not_followed(segment, v)) }
             }
             Trace::Blocked([p, q]) => {
                 let (t, i) = self.of.plane.find_either(p, q).expect("a traced edge is there");
@@ -269,8 +277,14 @@ impl Examiner {
                 let [a, b, c, d] = [v, goal, p, q].map(|v| self.of.plane.at(v));
                 Err(ValidateError::Crossing { segments: sorted(segment, other), at: crossing(a, b, c, d) })
             }
-            Trace::Lost => unreachable!("a segment between sites stays inside of the rectangle around them"),
+            // In exact arithmetic a segment between sites stays inside of the
+            // rectangle around them.
+            Trace::Lost => Err(self.not_followed(segment, v)),
         }
+    }
+
+    fn not_followed(&self, segment: usize, v: u32) -> ValidateError {
+        ValidateError::NotFollowed { segment, at: self.of.plane.at(v) }
     }
 
     fn shared(&self, segment: usize, piece: u32, part: [u32; 2]) -> ValidateError {

@@ -97,3 +97,30 @@ fn a_thousand_spokes_are_near_linear() {
     assert!(validate(&spokes).is_ok());
     assert!(repair(&spokes, 0.0).unwrap().1.repairs.is_empty());
 }
+
+#[test]
+fn what_is_too_small_for_exact_arithmetic_is_named() {
+    for scale in [1e-61, 1e-155, 1e-165, 1e-200, 1e-310] {
+        let small = |p: &(f64, f64)| (p.0 * scale, p.1 * scale);
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.0), (0.5, 0.7)];
+        let points: Vec<(f64, f64)> = corners.iter().map(small).collect();
+        let tiny = graph(&points, &[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]]);
+        assert!(matches!(validate(&tiny), Err(ValidateError::TooSmall { .. })), "{scale}");
+        // Only a part of the graph: whatever is said, there is no panic.
+        let mut points = points;
+        points.push((1.0, 2.0));
+        let _ = validate(&graph(&points, &[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]]));
+    }
+    assert!(validate(&graph(&[(1e-300, 0.0)], &[])).is_ok());
+}
+
+#[test]
+fn a_tolerance_below_all_coordinates_takes_no_longer() {
+    let points: Vec<(f64, f64)> = (0..20_000).map(|i| (f64::from(i % 141), f64::from(i / 141))).collect();
+    for tolerance in [1e-30, 1e-300] {
+        let (mended, report) = repair(&graph(&points, &[]), tolerance).unwrap();
+        assert_eq!((mended.points.len(), report.repairs.len()), (20_000, 0));
+    }
+    let close = graph(&[(1.0, 0.0), (1.0, 1e-31), (1.0, 3e-30)], &[]);
+    assert_eq!(repair(&close, 1e-30).unwrap().0.points.len(), 2);
+}

@@ -62,8 +62,12 @@ enum SessionMethod {
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
-    let mut talk =
-        Talk { session: None, brief: args.brief, templates: args.method == SessionMethod::Templates };
+    let mut talk = Talk {
+        session: None,
+        brief: args.brief,
+        templates: args.method == SessionMethod::Templates,
+        inputs: Vec::new(),
+    };
     let mut input = io::stdin().lock();
     let (mut line, mut failed) = (String::new(), 0);
     if let Some(file) = &args.file {
@@ -103,6 +107,8 @@ struct Talk {
     session: Option<Kept>,
     brief: bool,
     templates: bool,
+    /// Points that were read, which no mesh may replace.
+    inputs: Vec<PathBuf>,
 }
 
 impl Talk {
@@ -110,6 +116,7 @@ impl Talk {
         match command {
             Command::Open(path) => {
                 let graph = hexdel_io::read_points(&path)?;
+                self.inputs.push(path);
                 self.begin(Kept::open(&graph, self.templates)?)
             }
             Command::Domain(centre, radius) => self.begin(Kept::empty(centre, radius, self.templates)?),
@@ -132,7 +139,11 @@ impl Talk {
         let session = self.session.as_mut().ok_or("no session yet: begin with open, domain or load")?;
         let outcome = match command {
             Command::Insert(points) => session.insert_all(&points)?,
-            Command::InsertFile(path) => session.insert_all(&hexdel_io::read_points(&path)?.points)?,
+            Command::InsertFile(path) => {
+                let points = hexdel_io::read_points(&path)?.points;
+                self.inputs.push(path);
+                session.insert_all(&points)?
+            }
             Command::Remove(ids) => session.remove(&ids.into_iter().map(PointId).collect::<Vec<_>>())?,
             Command::Size(size) => {
                 let size = changed(session.compact()?.size().cloned(), size)?;
@@ -149,7 +160,7 @@ impl Talk {
                     "segments_missing": check.segments.missing.len(),
                 }));
             }
-            Command::Mesh(path) => return write(session, &path),
+            Command::Mesh(path) => return write(session, &path, &self.inputs),
             Command::Save(path) => return save(session, &path),
             _ => return Ok(counts(session)),
         };
@@ -199,8 +210,11 @@ fn changed(size: Option<Size>, command: SizeCommand) -> Result<Option<Size>, Ref
     }))
 }
 
-fn write(session: &Kept, path: &Path) -> Result<Value, Refusal> {
+fn write(session: &Kept, path: &Path, inputs: &[PathBuf]) -> Result<Value, Refusal> {
     let mut outputs = Outputs::default();
+    for input in inputs {
+        outputs.protect_input(input);
+    }
     outputs.add_mesh(path)?;
     let made = session.mesh();
     let mut inputs = vec![None; made.mesh.vertices.len()];

@@ -82,7 +82,7 @@ fn a_fan_at_a_narrow_corner_passes_the_check() {
     bench.run("mesh wedge.poly -q -o m.ele --report r.json --domain hexagon").fine();
     assert!(bench.json("r.json")["exempt"].as_array().unwrap().len() > 1);
     bench.run("check m.ele --input wedge.poly").fine();
-    bench.file("apart.poly", &wedge.replace("0.9 0.01", "0.9 0.9"));
+    bench.file("apart.poly", wedge.replace("0.9 0.01", "0.9 0.9"));
     assert_eq!(bench.run("check m.ele --input apart.poly").code, 1);
 }
 

@@ -57,6 +57,16 @@ fn a_graph_is_opened_with_its_segments() {
 }
 
 #[test]
+fn a_mesh_does_not_replace_the_points_it_is_of() {
+    let bench = Bench::new();
+    bench.file("p.node", "2 2 0 0\n0 0 0\n1 1 0\n");
+    let (answers, code) = talk(&bench, "session --brief", "open p.node\nmesh p.ele\nmesh q.ele\n");
+    assert_eq!((answers.len(), code), (3, 2), "{answers:?}");
+    assert!(answers[1]["error"].as_str().unwrap().contains("belongs to the input"), "{answers:?}");
+    assert_eq!(bench.read("p.node"), b"2 2 0 0\n0 0 0\n1 1 0\n");
+}
+
+#[test]
 fn sessions_of_templates_answer_the_same_commands() {
     let bench = Bench::new();
     let commands = "domain 0 0 1\ninsert .1 .2 .3 .1\nremove 0\nundo\nmesh m.vtu\ncertify\nsave s.ron\n";
