@@ -47,7 +47,7 @@ pub(crate) struct Args {
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]
     brief: bool,
-    /// compact, or templates: many triangles, fast changes, no sizes [default: compact]
+    /// compact, or templates: many triangles, no sizes [default: compact]
     #[arg(long, value_enum, default_value_t, hide_possible_values = true, hide_default_value = true)]
     method: SessionMethod,
 }
