@@ -1,4 +1,5 @@
-//! Points to measure with, the same on every machine.
+//! Points to measure with, the same in every run; the last digits are those of the
+//! system's sine and power.
 
 use hexdel_geom::DVec2;
 

@@ -298,7 +298,6 @@ impl Mesher {
             ("the radius of a domain", self.domain_radius.is_some()),
             ("the size of edges", self.size.is_some()),
             ("meshing without coarsening", self.without_coarsening),
-            ("a size", self.size.is_some()),
         ];
         match given.into_iter().find(|(_, given)| *given) {
             Some((option, _)) => Err(Error::NotForGraphs { option }),
