@@ -39,15 +39,26 @@ impl TileId {
 
 /// Eight by eight hexagons of one level. Bit `8 r + q` of each plane is the
 /// hexagon `(q, r)` counted from the tile's first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tile {
     /// The hexagons that are subdivided.
     pub subdivided: u64,
-    /// The hexagons that the next finer level needs subdivided.
-    pub needed: u64,
     /// Two planes whose meaning the layers above define.
     pub marks: [u64; 2],
-    /// Tile coordinates: the first hexagon's address divided by [`SIDE`].
+    /// The hexagons that the next finer level needs subdivided.
+    pub needed: u64,
+}
+
+impl Tile {
+    /// A tile that holds nothing.
+    const EMPTY: Self = Self { subdivided: 0, marks: [0; 2], needed: 0 };
+}
+
+/// Where a tile is, and what lies around it. Apart from the [`Tile`], of which
+/// nine are read at once: so more of them fit into the cache.
+#[derive(Clone, Debug)]
+struct Links {
+    /// The first hexagon's address divided by [`SIDE`].
     position: (i64, i64),
     /// The tile one level coarser whose square holds this one; `NONE` at
     /// level 0 only.
@@ -59,12 +70,19 @@ pub struct Tile {
     around: [TileId; 9],
 }
 
-impl Tile {
-    /// The address of the tile's first hexagon.
+impl Links {
     #[inline]
-    pub const fn first(&self) -> Hex {
+    const fn first(&self) -> Hex {
         Hex::new(self.position.0 * SIDE, self.position.1 * SIDE)
     }
+}
+
+/// The tiles of a level in the order they were made; ids are indices.
+#[derive(Clone, Debug, Default)]
+struct Level {
+    tiles: Vec<Tile>,
+    /// As many.
+    links: Vec<Links>,
 }
 
 /// The existing tiles of the 3 x 3 around one, and which of them a change in
@@ -88,8 +106,7 @@ impl Margin {
 /// All tiles of all levels.
 #[derive(Clone, Debug, Default)]
 pub struct Tiles {
-    /// The tiles of each level in the order they were made; ids are indices.
-    levels: Vec<Vec<Tile>>,
+    levels: Vec<Level>,
     /// Tiles of level 0 by position.
     roots: FxHashMap<(i64, i64), TileId>,
 }
@@ -102,7 +119,13 @@ impl Tiles {
 
     /// The tiles of a level, by id; none where the level is finer than all.
     pub fn level(&self, level: u8) -> &[Tile] {
-        self.levels.get(usize::from(level)).map_or(&[], Vec::as_slice)
+        self.levels.get(usize::from(level)).map_or(&[], |level| &level.tiles)
+    }
+
+    /// The tiles of a level with the addresses of their first hexagons, by id.
+    pub fn placed(&self, level: u8) -> impl Iterator<Item = (Hex, &Tile)> {
+        let level = self.levels.get(usize::from(level));
+        level.into_iter().flat_map(|Level { tiles, links }| links.iter().map(Links::first).zip(tiles))
     }
 
     /// A tile.
@@ -112,7 +135,7 @@ impl Tiles {
     /// If `id` is not of `level`.
     #[inline]
     pub fn get(&self, level: u8, id: TileId) -> &Tile {
-        &self.levels[usize::from(level)][id.index()]
+        &self.levels[usize::from(level)].tiles[id.index()]
     }
 
     /// A tile, to change its planes.
@@ -122,7 +145,27 @@ impl Tiles {
     /// If `id` is not of `level`.
     #[inline]
     pub fn get_mut(&mut self, level: u8, id: TileId) -> &mut Tile {
-        &mut self.levels[usize::from(level)][id.index()]
+        &mut self.levels[usize::from(level)].tiles[id.index()]
+    }
+
+    /// The address of a tile's first hexagon.
+    ///
+    /// # Panics
+    ///
+    /// If `id` is not of `level`.
+    #[inline]
+    pub fn first(&self, level: u8, id: TileId) -> Hex {
+        self.links(level, id).first()
+    }
+
+    #[inline]
+    fn links(&self, level: u8, id: TileId) -> &Links {
+        &self.levels[usize::from(level)].links[id.index()]
+    }
+
+    #[inline]
+    fn links_mut(&mut self, level: u8, id: TileId) -> &mut Links {
+        &mut self.levels[usize::from(level)].links[id.index()]
     }
 
     /// The tile that holds a hexagon and the hexagon's bit in it, if there is
@@ -133,7 +176,7 @@ impl Tiles {
         let mut id = *self.roots.get(&up(level))?;
         for k in (0..level).rev() {
             let p = up(k);
-            id = self.levels[usize::from(level - k - 1)][id.index()].children[quadrant(p)].some()?;
+            id = self.child(level - k - 1, id, quadrant(p))?;
         }
         Some((id, bit))
     }
@@ -154,7 +197,7 @@ impl Tiles {
     #[inline]
     pub fn require_near(&mut self, level: u8, hint: TileId, hex: Hex) -> (TileId, u32) {
         let (position, bit) = split(hex);
-        let from = self.get(level, hint).position;
+        let from = self.links(level, hint).position;
         let (column, row) = (position.0 - from.0, position.1 - from.1);
         if column.abs() <= 1 && row.abs() <= 1 {
             (self.require_beside(level, hint, column, row), bit)
@@ -166,7 +209,7 @@ impl Tiles {
     /// One of the 3 x 3 tiles around, `column` and `row` from -1 to 1.
     #[inline]
     pub fn beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
-        self.get(level, id).around[(3 * (row + 1) + column + 1) as usize].some()
+        self.links(level, id).around[(3 * (row + 1) + column + 1) as usize].some()
     }
 
     /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
@@ -175,13 +218,13 @@ impl Tiles {
         if let Some(there) = self.beside(level, id, column, row) {
             return there;
         }
-        let tile = self.get(level, id);
+        let tile = self.links(level, id);
         let position = (tile.position.0 + column, tile.position.1 + row);
         if level == 0 {
             return self.require_root(position);
         }
         let parent = tile.parent;
-        let from = self.get(level - 1, parent).position;
+        let from = self.links(level - 1, parent).position;
         let parent =
             self.require_beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
         self.require_child(level - 1, parent, quadrant(position))
@@ -191,7 +234,7 @@ impl Tiles {
     /// `quadrant` = `2 row + column`.
     #[inline]
     pub fn child(&self, level: u8, id: TileId, quadrant: usize) -> Option<TileId> {
-        self.get(level, id).children[quadrant].some()
+        self.links(level, id).children[quadrant].some()
     }
 
     /// Makes the tile one level finer in one quarter of this one's square.
@@ -199,10 +242,10 @@ impl Tiles {
         if let Some(child) = self.child(level, id, quadrant) {
             return child;
         }
-        let (q, r) = self.get(level, id).position;
+        let (q, r) = self.links(level, id).position;
         let position = (2 * q + (quadrant as i64 & 1), 2 * r + (quadrant as i64 >> 1));
         let child = self.push(level + 1, position, id);
-        self.get_mut(level, id).children[quadrant] = child;
+        self.links_mut(level, id).children[quadrant] = child;
         self.link_child(level + 1, child, quadrant);
         child
     }
@@ -211,15 +254,15 @@ impl Tiles {
     /// `2 row + column`; `None` at level 0.
     #[inline]
     pub fn parent(&self, level: u8, id: TileId) -> Option<(TileId, usize)> {
-        let tile = self.get(level, id);
+        let tile = self.links(level, id);
         Some((tile.parent.some()?, quadrant(tile.position)))
     }
 
     /// The window of a tile for one plane.
     #[inline]
     pub fn window(&self, level: u8, id: TileId, plane: impl Fn(&Tile) -> u64) -> Window {
-        let tiles = &self.levels[usize::from(level)];
-        let around = &tiles[id.index()].around;
+        let Level { tiles, links } = &self.levels[usize::from(level)];
+        let around = &links[id.index()].around;
         let bits = |i: usize| around[i].some().map_or(0, |t| plane(&tiles[t.index()]));
         Window::gather(&[
             [bits(0), bits(1), bits(2)],
@@ -236,8 +279,8 @@ impl Tiles {
         id: TileId,
         planes: impl Fn(&Tile) -> [u64; N],
     ) -> [Window; N] {
-        let tiles = &self.levels[usize::from(level)];
-        let around = &tiles[id.index()].around;
+        let Level { tiles, links } = &self.levels[usize::from(level)];
+        let around = &links[id.index()].around;
         let mut bits = [[[0; 3]; 3]; N];
         let mut any = [0; N];
         for (i, there) in around.iter().enumerate() {
@@ -257,7 +300,7 @@ impl Tiles {
 
     /// The existing tiles among the 3 x 3 around, itself included.
     pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
-        self.get(level, id).around.into_iter().filter_map(TileId::some)
+        self.links(level, id).around.into_iter().filter_map(TileId::some)
     }
 
     /// Makes the tiles exist whose window shows one of `bits`, and says which of
@@ -265,12 +308,12 @@ impl Tiles {
     #[inline]
     pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) -> Margin {
         let shown = reach(bits, &QUARTERS);
-        let around = &self.get(level, id).around;
+        let around = &self.links(level, id).around;
         let existing = (0..9).fold(0, |all, i| all | u16::from(around[i] != TileId::NONE) << i);
         for i in ones(u64::from(shown & !existing)) {
             self.require_beside(level, id, i64::from(i) % 3 - 1, i64::from(i) / 3 - 1);
         }
-        Margin { around: self.get(level, id).around, reached: shown & reach(bits, &CORNERS) }
+        Margin { around: self.links(level, id).around, reached: shown & reach(bits, &CORNERS) }
     }
 
     fn require_root(&mut self, position: (i64, i64)) -> TileId {
@@ -291,25 +334,19 @@ impl Tiles {
     fn push(&mut self, level: u8, position: (i64, i64), parent: TileId) -> TileId {
         let level = usize::from(level);
         if level == self.levels.len() {
-            self.levels.push(Vec::new());
+            self.levels.push(Level::default());
         }
-        let id = TileId::new(self.levels[level].len());
-        self.levels[level].push(Tile {
-            subdivided: 0,
-            needed: 0,
-            marks: [0; 2],
-            position,
-            parent,
-            children: [TileId::NONE; 4],
-            around: [TileId::NONE; 9],
-        });
+        let Level { tiles, links } = &mut self.levels[level];
+        let id = TileId::new(tiles.len());
+        tiles.push(Tile::EMPTY);
+        links.push(Links { position, parent, children: [TileId::NONE; 4], around: [TileId::NONE; 9] });
         id
     }
 
     /// Links a new tile in a quadrant of its parent with its existing
     /// neighbours, which are children of the parent and of its neighbours.
     fn link_child(&mut self, level: u8, id: TileId, quadrant: usize) {
-        let parents = self.get(level - 1, self.get(level, id).parent).around;
+        let parents = self.links(level - 1, self.links(level, id).parent).around;
         for i in 0..9 {
             let (column, row) = (quadrant % 2 + i % 3 + 1, quadrant / 2 + i / 3 + 1);
             if let Some(parent) = parents[3 * (row / 2) + column / 2].some()
@@ -323,8 +360,8 @@ impl Tiles {
     /// Links two tiles, the second being the one at `place` of the first.
     #[inline]
     fn link(&mut self, level: u8, id: TileId, other: TileId, place: usize) {
-        self.get_mut(level, id).around[place] = other;
-        self.get_mut(level, other).around[8 - place] = id;
+        self.links_mut(level, id).around[place] = other;
+        self.links_mut(level, other).around[8 - place] = id;
     }
 }
 
@@ -412,7 +449,7 @@ mod tests {
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
         let reached = tiles.require_margin(1, id, 1 << bit);
         assert_eq!(reached.iter().filter(|(_, reached)| *reached).count(), tiles.level(1).len());
-        let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
+        let made: Vec<_> = tiles.placed(1).map(|(first, _)| first).collect();
         let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
         let mut made_sorted = made;
         made_sorted.sort();
@@ -430,7 +467,7 @@ mod tests {
             let margin = tiles.require_margin(1, id, 1 << bit);
             assert_eq!(margin.iter().count(), 9);
             for (tile, reached) in margin.iter() {
-                let first = tiles.get(1, tile).first();
+                let first = tiles.first(1, tile);
                 let hexes = (0..64).map(|i| first + Hex::new(i % 8, i / 8));
                 let nearest = hexes.map(|h| h.distance(at)).min();
                 assert_eq!(reached, nearest <= Some(Window::MARGIN as u64), "{at:?}, {first:?}");

@@ -21,7 +21,7 @@ use crate::coarsen;
 use crate::queue::Queues;
 use crate::rule::{RuleSet, Situation};
 use crate::sites::Sites;
-use hexdel_classify::{Occupant, View};
+use hexdel_classify::{Domain, Dual, DualError, Occupant, Relocation, View, extract};
 use hexdel_geom::DVec2;
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
 use hexdel_grid::grid::hex_of;
@@ -123,6 +123,27 @@ impl Refiner {
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
         self.sites.occupants(self.grid.lattice())
+    }
+
+    /// The mesh of the grid: what [`extract`](hexdel_classify::extract) makes of it and of all
+    /// points, sooner. Points are taken in the order in which memory holds them
+    /// and their tiles; that the rules keep their rings apart makes it the same
+    /// mesh.
+    ///
+    /// # Errors
+    ///
+    /// As [`extract`](hexdel_classify::extract).
+    pub fn extract(
+        &mut self,
+        domain: Domain,
+        relocation: Relocation,
+        monitor: &dyn Monitor,
+    ) -> Result<Dual, DualError> {
+        let occupants = self.sites.occupants_by_id(self.grid.lattice());
+        let mut dual = extract(&mut self.grid, &occupants, domain, relocation, monitor)?;
+        let of_site = dual.vertex_of_occupant;
+        dual.vertex_of_occupant = self.sites.ids().par_iter().map(|&id| of_site[id as usize]).collect();
+        Ok(dual)
     }
 
     /// How many times the rules were asked about a tile so far, or what it
@@ -427,7 +448,7 @@ impl Refiner {
 
     fn violation_in(&self, level: u8, id: TileId) -> Option<(Address, &'static str)> {
         let situation = Situation::of(View::of(&self.grid, level, id));
-        let first = self.grid.tiles().get(level, id).first();
+        let first = self.grid.tiles().first(level, id);
         let at = |bit| Address::new(level, first + hex_of(bit));
         self.rules.iter().find_map(|rule| {
             let asked = rule.must_subdivide(&situation).without(situation.view.subdivided).centre();

@@ -49,13 +49,23 @@ pub(crate) struct Sites {
     all: Vec<Site>,
     /// The site id of each point, in the order of adding. A permutation.
     rank: Vec<u32>,
-    /// The tile of each site's hexagon; meaningless while it descends.
-    tile: Vec<TileId>,
-    /// The next site that occupies a hexagon of the same tile, or [`NONE`].
-    next: Vec<u32>,
+    /// The place of each site.
+    places: Vec<Place>,
     /// The first site of each tile, by level and tile id, or [`NONE`]; none
-    /// beyond the end. Together with `next` a list of each tile's occupants.
+    /// beyond the end. Together with `places` a list of each tile's occupants.
     heads: Vec<Vec<u32>>,
+}
+
+/// Where a site is among the tiles: apart from the [`Site`] itself, which is
+/// larger and of which nothing else is asked when it leaves its hexagon.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// The tile of its hexagon; meaningless while it descends.
+    tile: TileId,
+    /// The hexagon's bit there.
+    bit: u32,
+    /// The next site that occupies a hexagon of the same tile, or [`NONE`].
+    next: u32,
 }
 
 const NONE: u32 = u32::MAX;
@@ -68,8 +78,7 @@ impl Sites {
             points.par_iter().enumerate().map(|(i, &p)| (along_curve(lattice, p), i as u32)).collect();
         order.par_sort_unstable();
         self.all.par_extend(order.par_iter().map(|&(_, i)| Site::new(lattice, 0, points[i as usize])));
-        self.next.resize(self.all.len(), NONE);
-        self.tile.resize(self.all.len(), TileId::new(0));
+        self.places.resize(self.all.len(), Place { tile: TileId::new(0), bit: 0, next: NONE });
         self.rank.resize(self.all.len(), NONE);
         for (site, &(_, i)) in (first..).zip(&order) {
             self.rank[first + i as usize] = site as u32;
@@ -79,11 +88,17 @@ impl Sites {
 
     /// The points and the leaves they occupy, in the order of adding.
     pub(crate) fn occupants(&self, lattice: &Lattice) -> Vec<Occupant> {
-        let occupant = |&id: &u32| {
-            let &Site { point, level, .. } = self.get(id);
-            Occupant { level, at: lattice.locate(level, point), tile: self.tile[id as usize], point }
-        };
-        self.rank.par_iter().map(occupant).collect()
+        self.rank.par_iter().map(|&id| self.occupant(lattice, id)).collect()
+    }
+
+    /// The same, by site id.
+    pub(crate) fn occupants_by_id(&self, lattice: &Lattice) -> Vec<Occupant> {
+        (0..self.all.len() as u32).into_par_iter().map(|id| self.occupant(lattice, id)).collect()
+    }
+
+    fn occupant(&self, lattice: &Lattice, id: u32) -> Occupant {
+        let &Site { point, level, .. } = self.get(id);
+        Occupant { level, at: lattice.locate(level, point), tile: self.tile_of(id), point }
     }
 
     #[inline]
@@ -108,15 +123,14 @@ impl Sites {
 
     /// The tile that a site was last put into.
     pub(crate) fn tile_of(&self, id: u32) -> TileId {
-        self.tile[id as usize]
+        self.places[id as usize].tile
     }
 
     /// Forgets the sites from `len` on, which occupy nothing.
     pub(crate) fn truncate(&mut self, len: usize) {
         self.all.truncate(len);
         self.rank.truncate(len);
-        self.tile.truncate(len);
-        self.next.truncate(len);
+        self.places.truncate(len);
     }
 
     /// The sites that occupy hexagons of a tile.
@@ -125,7 +139,7 @@ impl Sites {
         let mut id = heads.copied().unwrap_or(NONE);
         std::iter::from_fn(move || {
             let found = (id != NONE).then_some(id)?;
-            id = self.next[found as usize];
+            id = self.places[found as usize].next;
             Some(found)
         })
     }
@@ -133,7 +147,7 @@ impl Sites {
     /// Notes that a site occupies its hexagon, which is one of `tile`.
     #[inline]
     pub(crate) fn enter(&mut self, id: u32, tile: TileId) {
-        let level = usize::from(self.get(id).level);
+        let (level, bit) = (usize::from(self.get(id).level), bit_of(self.get(id).at.hex));
         if level >= self.heads.len() {
             self.heads.resize(level + 1, Vec::new());
         }
@@ -141,8 +155,8 @@ impl Sites {
         if tile.index() >= heads.len() {
             heads.resize((tile.index() + 1).next_power_of_two(), NONE);
         }
-        self.tile[id as usize] = tile;
-        self.next[id as usize] = std::mem::replace(&mut heads[tile.index()], id);
+        let next = std::mem::replace(&mut heads[tile.index()], id);
+        self.places[id as usize] = Place { tile, bit, next };
     }
 
     /// Forgets and returns the site that occupies a hexagon.
@@ -151,9 +165,9 @@ impl Sites {
         let head = self.heads.get_mut(usize::from(level))?.get_mut(tile.index())?;
         let (mut before, mut id) = (NONE, *head);
         while id != NONE {
-            let after = self.next[id as usize];
-            if bit_of(self.all[id as usize].at.hex) == bit {
-                *(if before == NONE { head } else { &mut self.next[before as usize] }) = after;
+            let Place { bit: found, next: after, .. } = self.places[id as usize];
+            if found == bit {
+                *(if before == NONE { head } else { &mut self.places[before as usize].next }) = after;
                 return Some(id);
             }
             (before, id) = (id, after);

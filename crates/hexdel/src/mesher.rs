@@ -7,7 +7,7 @@ use crate::placement::{self, Placement};
 use crate::size::{Size, SizeError};
 use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
-use hexdel_classify::{Domain, Dual, Relocation, extract};
+use hexdel_classify::{Domain, Dual, Relocation};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
@@ -432,8 +432,7 @@ impl Mesher {
         let (mut dual, domain) = if let Some(size) = &self.size {
             Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?
         } else {
-            let occupants = refiner.occupants();
-            (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
+            (refiner.extract(domain, relocation, monitor)?, domain)
         };
         let mut ended = Ended { reached: true, spent: false };
         if optimize {

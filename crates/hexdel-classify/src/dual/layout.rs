@@ -233,9 +233,8 @@ fn patch(grid: &mut Grid, domain: Domain) -> Vec<Block> {
             grid.tiles_mut().require(domain.base_level, Hex::new(q, r));
         }
     }
-    let tiles = grid.tiles().level(domain.base_level);
-    let exists = |t: &hexdel_grid::Tile| domain.window(t.first()).centre();
-    tiles.iter().map(|t| Block { exists: exists(t), ..Block::default() }).collect()
+    let tiles = grid.tiles().placed(domain.base_level);
+    tiles.map(|(first, _)| Block { exists: domain.window(first).centre(), ..Block::default() }).collect()
 }
 
 /// Completes a tile's block, of which `exists` and the inserted vertices are
