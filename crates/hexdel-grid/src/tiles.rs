@@ -54,10 +54,13 @@ impl Tile {
     const EMPTY: Self = Self { subdivided: 0, marks: [0; 2], needed: 0 };
 }
 
-/// Where a tile is, and what lies around it. Apart from the [`Tile`], of which
-/// nine are read at once: so more of them fit into the cache.
+/// The 3 x 3 tiles around one, `3 row + column`, itself in the middle. Mutual:
+/// a tile that exists is linked by all its existing neighbours.
+type Around = [TileId; 9];
+
+/// Where a tile is, and its place in the quadtree.
 #[derive(Clone, Debug)]
-struct Links {
+struct Kin {
     /// The first hexagon's address divided by [`SIDE`].
     position: (i64, i64),
     /// The tile one level coarser whose square holds this one; `NONE` at
@@ -65,24 +68,23 @@ struct Links {
     parent: TileId,
     /// The four tiles one level finer within this square, `2 row + column`.
     children: [TileId; 4],
-    /// The 3 x 3 tiles around, `3 row + column`, itself in the middle. Mutual:
-    /// a tile that exists is linked by all its existing neighbours.
-    around: [TileId; 9],
 }
 
-impl Links {
+impl Kin {
     #[inline]
     const fn first(&self) -> Hex {
         Hex::new(self.position.0 * SIDE, self.position.1 * SIDE)
     }
 }
 
-/// The tiles of a level in the order they were made; ids are indices.
+/// The tiles of a level in the order they were made; ids are indices. What is
+/// asked for together stands together: the less of the rest comes with it, the
+/// more fits into the cache.
 #[derive(Clone, Debug, Default)]
 struct Level {
     tiles: Vec<Tile>,
-    /// As many.
-    links: Vec<Links>,
+    around: Vec<Around>,
+    kin: Vec<Kin>,
 }
 
 /// The existing tiles of the 3 x 3 around one, and which of them a change in
@@ -125,7 +127,7 @@ impl Tiles {
     /// The tiles of a level with the addresses of their first hexagons, by id.
     pub fn placed(&self, level: u8) -> impl Iterator<Item = (Hex, &Tile)> {
         let level = self.levels.get(usize::from(level));
-        level.into_iter().flat_map(|Level { tiles, links }| links.iter().map(Links::first).zip(tiles))
+        level.into_iter().flat_map(|Level { tiles, kin, .. }| kin.iter().map(Kin::first).zip(tiles))
     }
 
     /// A tile.
@@ -155,17 +157,17 @@ impl Tiles {
     /// If `id` is not of `level`.
     #[inline]
     pub fn first(&self, level: u8, id: TileId) -> Hex {
-        self.links(level, id).first()
+        self.kin(level, id).first()
     }
 
     #[inline]
-    fn links(&self, level: u8, id: TileId) -> &Links {
-        &self.levels[usize::from(level)].links[id.index()]
+    fn links(&self, level: u8, id: TileId) -> &Around {
+        &self.levels[usize::from(level)].around[id.index()]
     }
 
     #[inline]
-    fn links_mut(&mut self, level: u8, id: TileId) -> &mut Links {
-        &mut self.levels[usize::from(level)].links[id.index()]
+    fn kin(&self, level: u8, id: TileId) -> &Kin {
+        &self.levels[usize::from(level)].kin[id.index()]
     }
 
     /// The tile that holds a hexagon and the hexagon's bit in it, if there is
@@ -192,24 +194,35 @@ impl Tiles {
         (id, bit)
     }
 
-    /// The same as [`require`](Self::require), faster if the hexagon lies in the
-    /// tile `hint` or beside it.
+    /// The same as [`require`](Self::require), of a hexagon in the tile `near` or
+    /// beside it; `None` if it lies elsewhere.
     #[inline]
-    pub fn require_near(&mut self, level: u8, hint: TileId, hex: Hex) -> (TileId, u32) {
+    pub fn require_near(&mut self, level: u8, near: TileId, hex: Hex) -> Option<(TileId, u32)> {
         let (position, bit) = split(hex);
-        let from = self.links(level, hint).position;
+        let from = self.kin(level, near).position;
         let (column, row) = (position.0 - from.0, position.1 - from.1);
-        if column.abs() <= 1 && row.abs() <= 1 {
-            (self.require_beside(level, hint, column, row), bit)
-        } else {
-            self.require(level, hex)
+        let adjacent = column.abs() <= 1 && row.abs() <= 1;
+        adjacent.then(|| (self.require_beside(level, near, column, row), bit))
+    }
+
+    /// The same as [`require`](Self::require), faster if the hexagon lies under the
+    /// tile `above` of the next coarser level or beside it.
+    #[inline]
+    pub fn require_under(&mut self, level: u8, above: TileId, hex: Hex) -> (TileId, u32) {
+        let (position, bit) = split(hex);
+        let from = self.kin(level - 1, above).position;
+        let (column, row) = ((position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
+        if column.abs() > 1 || row.abs() > 1 {
+            return self.require(level, hex);
         }
+        let parent = self.require_beside(level - 1, above, column, row);
+        (self.require_child(level - 1, parent, quadrant(position)), bit)
     }
 
     /// One of the 3 x 3 tiles around, `column` and `row` from -1 to 1.
     #[inline]
     pub fn beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
-        self.links(level, id).around[(3 * (row + 1) + column + 1) as usize].some()
+        self.links(level, id)[(3 * (row + 1) + column + 1) as usize].some()
     }
 
     /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
@@ -218,13 +231,13 @@ impl Tiles {
         if let Some(there) = self.beside(level, id, column, row) {
             return there;
         }
-        let tile = self.links(level, id);
+        let tile = self.kin(level, id);
         let position = (tile.position.0 + column, tile.position.1 + row);
         if level == 0 {
             return self.require_root(position);
         }
         let parent = tile.parent;
-        let from = self.links(level - 1, parent).position;
+        let from = self.kin(level - 1, parent).position;
         let parent =
             self.require_beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
         self.require_child(level - 1, parent, quadrant(position))
@@ -234,7 +247,7 @@ impl Tiles {
     /// `quadrant` = `2 row + column`.
     #[inline]
     pub fn child(&self, level: u8, id: TileId, quadrant: usize) -> Option<TileId> {
-        self.links(level, id).children[quadrant].some()
+        self.kin(level, id).children[quadrant].some()
     }
 
     /// Makes the tile one level finer in one quarter of this one's square.
@@ -242,10 +255,10 @@ impl Tiles {
         if let Some(child) = self.child(level, id, quadrant) {
             return child;
         }
-        let (q, r) = self.links(level, id).position;
+        let (q, r) = self.kin(level, id).position;
         let position = (2 * q + (quadrant as i64 & 1), 2 * r + (quadrant as i64 >> 1));
         let child = self.push(level + 1, position, id);
-        self.links_mut(level, id).children[quadrant] = child;
+        self.levels[usize::from(level)].kin[id.index()].children[quadrant] = child;
         self.link_child(level + 1, child, quadrant);
         child
     }
@@ -254,15 +267,15 @@ impl Tiles {
     /// `2 row + column`; `None` at level 0.
     #[inline]
     pub fn parent(&self, level: u8, id: TileId) -> Option<(TileId, usize)> {
-        let tile = self.links(level, id);
+        let tile = self.kin(level, id);
         Some((tile.parent.some()?, quadrant(tile.position)))
     }
 
     /// The window of a tile for one plane.
     #[inline]
     pub fn window(&self, level: u8, id: TileId, plane: impl Fn(&Tile) -> u64) -> Window {
-        let Level { tiles, links } = &self.levels[usize::from(level)];
-        let around = &links[id.index()].around;
+        let Level { tiles, around, .. } = &self.levels[usize::from(level)];
+        let around = &around[id.index()];
         let bits = |i: usize| around[i].some().map_or(0, |t| plane(&tiles[t.index()]));
         Window::gather(&[
             [bits(0), bits(1), bits(2)],
@@ -279,8 +292,8 @@ impl Tiles {
         id: TileId,
         planes: impl Fn(&Tile) -> [u64; N],
     ) -> [Window; N] {
-        let Level { tiles, links } = &self.levels[usize::from(level)];
-        let around = &links[id.index()].around;
+        let Level { tiles, around, .. } = &self.levels[usize::from(level)];
+        let around = &around[id.index()];
         let mut bits = [[[0; 3]; 3]; N];
         let mut any = [0; N];
         for (i, there) in around.iter().enumerate() {
@@ -300,7 +313,7 @@ impl Tiles {
 
     /// The existing tiles among the 3 x 3 around, itself included.
     pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
-        self.links(level, id).around.into_iter().filter_map(TileId::some)
+        self.links(level, id).iter().copied().filter_map(TileId::some)
     }
 
     /// Makes the tiles exist whose window shows one of `bits`, and says which of
@@ -308,12 +321,12 @@ impl Tiles {
     #[inline]
     pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) -> Margin {
         let shown = reach(bits, &QUARTERS);
-        let around = &self.links(level, id).around;
+        let around = self.links(level, id);
         let existing = (0..9).fold(0, |all, i| all | u16::from(around[i] != TileId::NONE) << i);
         for i in ones(u64::from(shown & !existing)) {
             self.require_beside(level, id, i64::from(i) % 3 - 1, i64::from(i) / 3 - 1);
         }
-        Margin { around: self.links(level, id).around, reached: shown & reach(bits, &CORNERS) }
+        Margin { around: *self.links(level, id), reached: shown & reach(bits, &CORNERS) }
     }
 
     fn require_root(&mut self, position: (i64, i64)) -> TileId {
@@ -336,17 +349,18 @@ impl Tiles {
         if level == self.levels.len() {
             self.levels.push(Level::default());
         }
-        let Level { tiles, links } = &mut self.levels[level];
+        let Level { tiles, around, kin } = &mut self.levels[level];
         let id = TileId::new(tiles.len());
         tiles.push(Tile::EMPTY);
-        links.push(Links { position, parent, children: [TileId::NONE; 4], around: [TileId::NONE; 9] });
+        around.push([TileId::NONE; 9]);
+        kin.push(Kin { position, parent, children: [TileId::NONE; 4] });
         id
     }
 
     /// Links a new tile in a quadrant of its parent with its existing
     /// neighbours, which are children of the parent and of its neighbours.
     fn link_child(&mut self, level: u8, id: TileId, quadrant: usize) {
-        let parents = self.links(level - 1, self.links(level, id).parent).around;
+        let parents = *self.links(level - 1, self.kin(level, id).parent);
         for i in 0..9 {
             let (column, row) = (quadrant % 2 + i % 3 + 1, quadrant / 2 + i / 3 + 1);
             if let Some(parent) = parents[3 * (row / 2) + column / 2].some()
@@ -360,8 +374,8 @@ impl Tiles {
     /// Links two tiles, the second being the one at `place` of the first.
     #[inline]
     fn link(&mut self, level: u8, id: TileId, other: TileId, place: usize) {
-        self.links_mut(level, id).around[place] = other;
-        self.links_mut(level, other).around[8 - place] = id;
+        self.levels[usize::from(level)].around[id.index()][place] = other;
+        self.levels[usize::from(level)].around[other.index()][8 - place] = id;
     }
 }
 

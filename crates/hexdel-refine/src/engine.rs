@@ -379,17 +379,22 @@ impl Refiner {
         let mut passed = None;
         for &id in sites {
             let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
-            if passed == Some((level, hex)) {
+            if let Some((_, _, tile)) = passed.filter(|&(l, h, _)| (l, h) == (level, hex)) {
+                self.sites.pass(id, tile);
                 self.moving.push(id as usize, [true]);
                 continue;
             }
-            let (tile, bit) = match last.filter(|&(l, _, _)| l == level) {
-                Some((_, near, _)) => self.grid.tiles_mut().require_near(level, near, hex),
-                None => self.grid.tile_of(Address::new(level, hex)),
-            };
+            let tiles = self.grid.tiles_mut();
+            let near = last.filter(|&(l, _, _)| l == level);
+            let near = near.and_then(|(_, near, _)| tiles.require_near(level, near, hex));
+            let (tile, bit) = near.unwrap_or_else(|| match level {
+                0 => tiles.require(0, hex),
+                // It comes from the level above.
+                _ => tiles.require_under(level, self.sites.tile_of(id), hex),
+            });
             let changed = self.occupy(id, (tile, bit));
             if self.grid.tiles().get(level, tile).subdivided >> bit & 1 == 1 {
-                passed = Some((level, hex));
+                passed = Some((level, hex, tile));
             }
             match &mut last {
                 Some((l, t, bits)) if (*l, *t) == (level, tile) => *bits |= changed,
@@ -404,10 +409,12 @@ impl Refiner {
         let level = self.sites.get(site).level;
         let tile = self.grid.tiles().get(level, id);
         if tile.subdivided >> bit & 1 == 1 {
+            self.sites.pass(site, id);
             self.moving.push(site as usize, [true]);
             return 0;
         }
         if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
+            self.sites.pass(site, id);
             self.moving.push(site as usize, [true]);
             return self.mark_subdivided(level, id, 1 << bit);
         }

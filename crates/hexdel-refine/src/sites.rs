@@ -60,7 +60,7 @@ pub(crate) struct Sites {
 /// larger and of which nothing else is asked when it leaves its hexagon.
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    /// The tile of its hexagon; meaningless while it descends.
+    /// The tile of its hexagon; while it descends, of the last one.
     tile: TileId,
     /// The hexagon's bit there.
     bit: u32,
@@ -121,7 +121,7 @@ impl Sites {
         &self.rank
     }
 
-    /// The tile that a site was last put into.
+    /// The tile of the hexagon that a site was last put into, or sent on from.
     pub(crate) fn tile_of(&self, id: u32) -> TileId {
         self.places[id as usize].tile
     }
@@ -157,6 +157,12 @@ impl Sites {
         }
         let next = std::mem::replace(&mut heads[tile.index()], id);
         self.places[id as usize] = Place { tile, bit, next };
+    }
+
+    /// Notes the tile of a site's hexagon, which it does not occupy: it moves on.
+    #[inline]
+    pub(crate) fn pass(&mut self, id: u32, tile: TileId) {
+        self.places[id as usize].tile = tile;
     }
 
     /// Forgets and returns the site that occupies a hexagon.
