@@ -123,7 +123,11 @@ struct Rows {
 }
 
 impl Rows {
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "called, it would wait for the fins to be written before it reads them"
+    )]
+    #[inline(always)]
     fn of(fins: &[Window; 6]) -> Self {
         let f = |d: usize| fins[d % 6];
         // starts: fins with none before them, counter-clockwise. Exactly one

@@ -91,8 +91,10 @@ struct Level {
 /// it reaches.
 #[derive(Clone, Copy, Debug)]
 pub struct Margin {
-    around: [TileId; 9],
-    /// A bit for each.
+    around: Around,
+    /// A bit for each that exists.
+    existing: u16,
+    /// A bit for each that is reached.
     reached: u16,
 }
 
@@ -100,8 +102,8 @@ impl Margin {
     /// The tiles, each with whether it is reached.
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = (TileId, bool)> {
-        let all = self.around.into_iter().enumerate();
-        all.filter_map(|(i, tile)| Some((tile.some()?, self.reached >> i & 1 == 1)))
+        let all = ones(u64::from(self.existing));
+        all.map(|i| (self.around[i as usize], self.reached >> i & 1 == 1))
     }
 }
 
@@ -321,12 +323,12 @@ impl Tiles {
     #[inline]
     pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) -> Margin {
         let shown = reach(bits, &QUARTERS);
-        let around = self.links(level, id);
-        let existing = (0..9).fold(0, |all, i| all | u16::from(around[i] != TileId::NONE) << i);
+        let existing = existing(self.links(level, id));
         for i in ones(u64::from(shown & !existing)) {
             self.require_beside(level, id, i64::from(i) % 3 - 1, i64::from(i) / 3 - 1);
         }
-        Margin { around: *self.links(level, id), reached: shown & reach(bits, &CORNERS) }
+        let reached = shown & reach(bits, &CORNERS);
+        Margin { around: *self.links(level, id), existing: existing | shown, reached }
     }
 
     fn require_root(&mut self, position: (i64, i64)) -> TileId {
@@ -399,10 +401,16 @@ const CORNERS: [Reach; 3] = [
     (0xe0c0_8000_0000_0000, 0b100_000_000),
 ];
 
+/// A bit for each tile that exists.
+#[inline]
+fn existing(around: &Around) -> u16 {
+    (0..9).fold(0, |all, i| all | u16::from(around[i] != TileId::NONE) << i)
+}
+
 /// What some bits of a tile reach.
 #[inline]
 fn reach(bits: u64, parts: &[Reach]) -> u16 {
-    parts.iter().fold(0, |all, (part, reached)| if bits & part == 0 { all } else { all | reached })
+    parts.iter().fold(0, |all, (part, reached)| all | reached & u16::from(bits & part != 0).wrapping_neg())
 }
 
 /// The tile position of a hexagon and its bit within the tile.
