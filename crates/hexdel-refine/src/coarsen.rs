@@ -68,6 +68,8 @@ struct Tried<'a> {
     needed: Window,
     /// Whether all fins near the tile are known to be in a row.
     regular: Option<bool>,
+    /// The occupied hexagons of both classes, once somebody asks.
+    occupied: Option<[Window; 2]>,
     /// What lies around: read when a merge is more than unlikely.
     patch: Option<Patch>,
 }
@@ -75,7 +77,7 @@ struct Tried<'a> {
 impl<'a> Tried<'a> {
     fn new(grid: &'a Grid, level: u8, id: TileId) -> Self {
         let [subdivided, needed] = grid.tiles().windows(level, id, |tile| [tile.subdivided, tile.needed]);
-        Self { grid, level, id, subdivided, needed, regular: None, patch: None }
+        Self { grid, level, id, subdivided, needed, regular: None, occupied: None, patch: None }
     }
 
     /// Tries to merge the spare hexagons of the tile, each first together with
@@ -97,7 +99,8 @@ impl<'a> Tried<'a> {
     /// Merges hexagons if every rule still holds afterwards.
     fn merge(&mut self, group: Window, rules: &RuleSet) -> bool {
         let rest = self.subdivided.without(group);
-        if !self.is_regular_as(rest, group) {
+        // The tile itself is the likeliest to object.
+        if !self.is_regular_as(rest, group) || !self.rules_hold_as(rest, rules) {
             return false;
         }
         let patch = self.patch.get_or_insert_with(|| Patch::of(self.grid, self.level, self.id));
@@ -106,6 +109,16 @@ impl<'a> Tried<'a> {
             self.subdivided = rest;
         }
         legal
+    }
+
+    /// Whether no rule would ask for anything in the tile itself.
+    fn rules_hold_as(&mut self, rest: Window, rules: &RuleSet) -> bool {
+        let [occupied1, occupied2] = *self.occupied.get_or_insert_with(|| {
+            let view = View::of(self.grid, self.level, self.id);
+            [view.occupied1, view.occupied2]
+        });
+        let view = View { subdivided: rest, occupied1, occupied2 };
+        view.is_empty() || rules.hold(&Situation::of(view))
     }
 
     /// Whether all fins around the tile would be in a row without a group: the
@@ -165,7 +178,8 @@ impl Patch {
             .collect()
     }
 
-    /// Merges hexagons if no rule asks for them afterwards.
+    /// Merges hexagons if no rule asks for them in the tiles around the middle
+    /// one.
     fn merge(&mut self, group: Window, rules: &RuleSet) -> bool {
         let before = self.subdivided;
         for at in group.iter() {
@@ -179,11 +193,11 @@ impl Patch {
         legal
     }
 
-    /// Whether no rule asks for anything where it can see the group.
+    /// Whether no rule asks for anything where it can see the group, but for the
+    /// tile in the middle.
     fn rules_hold(&self, group: Window, rules: &RuleSet) -> bool {
-        // The tile in the middle is the likeliest to object.
         let reached = |i: &usize| !(group & seen_from()[*i]).is_empty();
-        [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(reached).all(|i| {
+        [1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(reached).all(|i| {
             let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
             let view = View {
                 subdivided: Self::window(&self.subdivided, column, row),

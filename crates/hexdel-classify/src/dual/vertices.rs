@@ -104,9 +104,9 @@ fn centres() -> &'static [DVec2; 64] {
     CENTRES.get_or_init(|| std::array::from_fn(|bit| Offset::of(hex_of(bit as u32)).cartesian()))
 }
 
-/// Occupants looked up at once: so few that what is found about them needs
-/// little memory.
-const OCCUPANTS_AT_ONCE: usize = 1 << 15;
+/// Occupants looked up at once: so few that what is found about them stays in
+/// the cache.
+const OCCUPANTS_AT_ONCE: usize = 1 << 11;
 
 /// Moves the vertices of occupied hexagons onto their points and, with
 /// templates, the rings of those of class `Occupied2` after them. Returns the
@@ -155,9 +155,9 @@ impl Moved {
         let id = occupant.tile;
         let at = hex - layout.grid.tiles().first(level, id);
         let ring = (relocation == Relocation::Full && !ring_may_stay(&occupant.at)).then(|| {
-            let shift = ring_shift(&occupant.at);
+            let shift = ring_shift(&occupant.at).cartesian();
             Direction::ALL.map(|d| {
-                let to = Frame::at(layout.grid.lattice(), level, hex.neighbour(d)).place(shift);
+                let to = Frame::at(layout.grid.lattice(), level, hex.neighbour(d)).place_at(shift);
                 (vertex_beside(layout, level, id, at + d.step()), to)
             })
         });
