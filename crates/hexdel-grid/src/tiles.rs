@@ -444,8 +444,14 @@ mod tests {
                     let (column, row) = (i % 3 - 1, i / 3 - 1);
                     let there = h + Hex::new(SIDE * column, SIDE * row);
                     assert_eq!(tiles.beside(3, id, column, row), tiles.find(3, there).map(|(t, _)| t));
-                    assert_eq!(Some(tiles.require_near(3, id, h)), tiles.find(3, h));
+                    assert_eq!(tiles.require_near(3, id, h), tiles.find(3, h));
                 }
+                // Whatever tile of the next coarser level it is said to lie under.
+                let coarse = (0..tiles.level(2).len()).map(TileId::new);
+                for above in coarse.step_by(5).chain(tiles.parent(3, id).map(|(above, _)| above)) {
+                    assert_eq!(Some(tiles.require_under(3, above, h)), tiles.find(3, h));
+                }
+                assert_eq!(tiles.require_near(3, id, h + Hex::new(2 * SIDE, 0)), None);
             }
         }
     }

@@ -202,7 +202,7 @@ fn number_one<const BIT: u32>(block: &Block, to: Hex, ids: &mut [u32; 10 * ROW])
 const fn ones_through_rows(word: u64) -> u64 {
     let word = word - (word >> 1 & 0x5555_5555_5555_5555);
     let word = (word & 0x3333_3333_3333_3333) + (word >> 2 & 0x3333_3333_3333_3333);
-    (word + (word >> 4) & 0x0f0f_0f0f_0f0f_0f0f).wrapping_mul(0x0101_0101_0101_0101)
+    ((word + (word >> 4)) & 0x0f0f_0f0f_0f0f_0f0f).wrapping_mul(0x0101_0101_0101_0101)
 }
 
 impl Corners for OwnerTile<'_> {
