@@ -31,7 +31,7 @@ pub(crate) fn step(round: usize) -> Step {
     match round {
         0 => Step::Move { rings: 2 },
         1 | 2 => Step::Move { rings: 3 },
-        3 => Step::Search { changes: 10, rings: 2, wide: false },
+        3 => Step::Search { changes: 6, rings: 2, wide: false },
         4 => Step::Search { changes: 20, rings: 3, wide: false },
         r if r % 4 == 1 => Step::Thin,
         r if r % 8 == 3 && r > 8 => Step::Refine,
@@ -55,16 +55,13 @@ const KEEP_BELOW: f64 = 0.9;
 const TOLERATED: f64 = 0.1;
 
 const MOVE: Effort =
-    Effort { sweeps: Sweeps { most: 40, stall: 0.7, hope: f64::INFINITY }, turns: 2, near: 0.3, steps: 4 };
+    Effort { sweeps: Sweeps { most: 40, stall: 0.7, hope: f64::INFINITY }, turns: 3, near: 0.3, steps: 4 };
 const SCREEN: Effort =
-    Effort { sweeps: Sweeps { most: 16, stall: 0.7, hope: f64::INFINITY }, turns: 2, near: 1.0, steps: 2 };
+    Effort { sweeps: Sweeps { most: 16, stall: 0.7, hope: 0.5 }, turns: 1, near: 0.3, steps: 2 };
 const FINISH: Effort =
     Effort { sweeps: Sweeps { most: 40, stall: 0.8, hope: f64::INFINITY }, turns: 3, near: 0.3, steps: 8 };
 
 const THIN: Pass = Pass { rings: 3, refills: 2, max_cost: 0.8, near: 0.05, patience: PATIENT };
-
-/// Changes that are worked out after screening.
-const FINALISTS: usize = 4;
 
 /// One round over the bad triangles.
 pub(crate) fn repair(work: &mut Work, step: Step) {
@@ -143,14 +140,14 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
 }
 
 /// Tries changes of topology near `t`, best first, and keeps the first that
-/// settles everything, or else the one that lowers the energy most.
+/// settles everything; or else works out the one that lowers the energy most.
 fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let corners = work.mesh.tri[t as usize].v;
     let mut changes = Vec::new();
     load_rings(work, &corners, if wide { 2 } else { 1 });
     let around = work.patch.vertices().to_vec();
     Finder { mesh: &work.mesh, rules: work.rules, refills: work.refills, out: &mut changes }.find(t, &around);
-    let mut ranked: Vec<(f64, Action)> = Vec::new();
+    let mut likeliest: Option<(f64, Action)> = None;
     for change in changes.into_iter().take(most) {
         let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else {
             continue;
@@ -159,27 +156,35 @@ fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
             return;
         }
         work.mesh.rollback();
-        ranked.push((state.energy - before, change.action));
-    }
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut best: Option<(f64, Action, usize)> = None;
-    for &(_, action) in ranked.iter().take(FINALISTS) {
-        for r in 2..=rings.max(2) {
-            let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
-                continue;
-            };
-            if keep_if_solved(work, state) {
-                return;
-            }
-            let valid = work.stays_valid();
-            work.mesh.rollback();
-            let gain = state.energy - before;
-            if valid && state.energy < KEEP_BELOW * before && best.is_none_or(|b| gain < b.0) {
-                best = Some((gain, action, r));
-            }
+        let gain = state.energy - before;
+        if likeliest.is_none_or(|(least, _)| gain < least) {
+            likeliest = Some((gain, change.action));
         }
     }
-    if let Some((_, action, r)) = best
+    if let Some((_, action)) = likeliest {
+        work_out(work, action, corners, rings);
+    }
+}
+
+/// Moves ever more rings around a change: kept if that settles everything, or else
+/// as it lowers the energy most.
+fn work_out(work: &mut Work, action: Action, corners: [u32; 3], rings: usize) {
+    let mut best: Option<(f64, usize)> = None;
+    for r in 2..=rings.max(2) {
+        let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
+            continue;
+        };
+        if keep_if_solved(work, state) {
+            return;
+        }
+        let valid = work.stays_valid();
+        work.mesh.rollback();
+        let gain = state.energy - before;
+        if valid && state.energy < KEEP_BELOW * before && best.is_none_or(|(least, _)| gain < least) {
+            best = Some((gain, r));
+        }
+    }
+    if let Some((_, r)) = best
         && attempt(work, action, corners, r, FINISH).is_some()
     {
         work.commit();
