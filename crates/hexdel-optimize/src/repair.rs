@@ -3,7 +3,8 @@
 //!
 //! A step that does not settle its patch is kept only where it lowers the
 //! energy by a tenth, so that a bad spot can be worked off in several steps
-//! but not wander.
+//! but not wander. Where there are segments, a round of steps is kept only if
+//! it leaves no more triangles outside.
 
 use crate::change::{Action, Finder, apply};
 use crate::decimate::{PATIENT, Pass, try_remove};
@@ -96,15 +97,31 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
 
 /// Moves what is bad before pass `pass` of removals.
 pub(crate) fn moves(work: &mut Work, pass: usize) {
-    for &i in MOVES.get(pass).copied().unwrap_or_default() {
-        repair(work, step(i));
-    }
+    let steps = MOVES.get(pass).copied().unwrap_or_default();
+    without_loss(work, |work| steps.iter().for_each(|&i| repair(work, step(i))));
 }
 
 /// Steps `from..to`, as long as triangles are bad.
 pub(crate) fn search(work: &mut Work, (from, to): (usize, usize)) {
-    for i in from..to {
-        repair(work, step(i));
+    without_loss(work, |work| (from..to).for_each(|i| repair(work, step(i))));
+}
+
+/// Does `job` and, in a mesh with segments, takes it back if it leaves more
+/// triangles outside than it has found: a patch that does not settle may hand
+/// its fault to triangles that were good, and the start of a graph has few that
+/// are not.
+fn without_loss(work: &mut Work, job: impl FnOnce(&mut Work)) {
+    if !work.mesh.is_constrained() {
+        return job(work);
+    }
+    let many = work.bad().len();
+    if many == 0 {
+        return;
+    }
+    let before = (work.mesh.clone(), work.failed.clone());
+    job(work);
+    if work.bad().len() > many {
+        (work.mesh, work.failed) = before;
     }
 }
 
