@@ -4,7 +4,7 @@
 use hexdel_geom::TriMesh;
 
 use crate::live::store::{Store, Triangle, Vertex};
-use crate::mesh::{Around, Mesh, Motion, NONE, Vertices};
+use crate::mesh::{Around, Mesh, Motion, NONE, Tri, Vertices};
 
 /// Part of a live mesh.
 #[derive(Clone, Debug)]
@@ -112,7 +112,7 @@ impl Cut {
     /// work has made of the part's own. Returns the slot of each vertex of
     /// `mesh`, `NONE` for those that are gone.
     pub(crate) fn put_back(&self, store: &mut Store, mesh: &Mesh, failed: &[u8]) -> Vec<u32> {
-        let slots = self.put_vertices(store, mesh, failed);
+        let slots = self.put_vertices(store, mesh, &self.remembered(mesh, failed));
         let triangle = |t: u32| {
             let tri = mesh.tri[t as usize];
             (tri.v.map(|v| slots[v as usize]), tri.bound)
@@ -147,6 +147,25 @@ impl Cut {
         }
         bound.sort_unstable();
         bound
+    }
+
+    /// What has failed at each vertex and need not be tried again: the optimiser forgets
+    /// wherever something moves, but what failed before succeeds only where triangles
+    /// have become others.
+    fn remembered(&self, mesh: &Mesh, failed: &[u8]) -> Vec<u8> {
+        let mut changed = vec![false; mesh.pos.len()];
+        let mut differ = |tris: &[Tri], others: &[Tri]| {
+            for (t, tri) in tris.iter().enumerate().filter(|(_, tri)| tri.alive()) {
+                if others.get(t).is_none_or(|other| other.v != tri.v) {
+                    tri.v.iter().for_each(|&v| changed[v as usize] = true);
+                }
+            }
+        };
+        differ(&mesh.tri, &self.mesh.tri);
+        differ(&self.mesh.tri, &mesh.tri);
+        let of = |failed: &[u8], i: usize| failed.get(i).copied().unwrap_or(0);
+        let before = |i: usize| if changed[i] { 0 } else { of(&self.failed, i) };
+        (0..mesh.pos.len()).map(|i| of(failed, i).max(before(i))).collect()
     }
 
     fn put_triangles(&self, store: &mut Store, new: impl Iterator<Item = ([u32; 3], u8)>) {

@@ -7,6 +7,7 @@
 //! | module | what |
 //! |---|---|
 //! | `answer` | the mesh, what a change did to it, and the way back |
+//! | `bloom` | triangles made room in |
 //! | `store` | slots, serial numbers, the journal |
 //! | `locate` | the triangle that holds a point |
 //! | `cut` | parts cut out and put back |
@@ -22,6 +23,7 @@
 //! Points, undo and files are left to the session in the crate `hexdel`.
 
 mod answer;
+mod bloom;
 mod coarsen;
 mod cut;
 mod insert;
@@ -43,6 +45,7 @@ use crate::import::import;
 use crate::mesh::Motion;
 use crate::options::VertexKind;
 use crate::refill::Refills;
+use crate::work::Work;
 use cut::{Cut, rings};
 use insert::{Spot, Tools};
 use locate::Memory;
@@ -113,6 +116,12 @@ const RINGS: usize = 5;
 /// Rings that are refined where a point finds no room, in the order of trying:
 /// one is enough in nine of ten cases.
 const INNER_RINGS: [usize; 4] = [1, 2, 0, 3];
+
+/// A point that is this much closer to a fixed vertex than edges are long finds no room.
+const CROWDED: f64 = 0.2;
+
+/// A way to make the marked triangles of a part smaller.
+type Refine = for<'a> fn(&Cut, &'a Tools, &[bool]) -> Option<Work<'a>>;
 
 /// Refinements until a point finds room. Each halves the edges around it; as
 /// many as there are bits in a coordinate would be pointless.
@@ -198,10 +207,12 @@ impl LiveMesh {
         let (mark, serials) = (self.store.mark(), self.store.serials);
         for _ in 0..MOST_REFINEMENTS {
             let spot = self.locate(p)?;
-            if let Some(v) = self.insert_at(spot, p, mark, false) {
+            if !self.is_crowded(spot.triangle, p)
+                && let Some(v) = self.insert_at(spot, p, mark, false)
+            {
                 return Ok(v);
             }
-            if !INNER_RINGS.into_iter().any(|inner| self.refine_around(spot.triangle, inner)) {
+            if !self.make_room(spot.triangle) {
                 break;
             }
         }
@@ -235,14 +246,36 @@ impl LiveMesh {
         Ok(v)
     }
 
+    /// Whether a fixed vertex is much closer to `p` than the triangle there is wide, so
+    /// that no change of its neighbourhood makes room.
+    fn is_crowded(&self, t: u32, p: DVec2) -> bool {
+        let [a, b, c] = self.store.corners(t);
+        let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
+        let near = rings(&self.store, &[t], 1);
+        let mut fixed = near.into_iter().flat_map(|t| self.store.triangle(t).v).filter(|&v| self.is_fixed(v));
+        fixed.any(|v| self.store.at(v).distance(p) < CROWDED * shortest)
+    }
+
+    /// Makes triangles smaller around triangle `t` that holds `p`; false, and nothing
+    /// done, where what surrounds them cannot be brought inside the bounds.
+    fn make_room(&mut self, t: u32) -> bool {
+        [1, 2].into_iter().any(|inner| self.work_inside(rings(&self.store, &[t], inner), bloom::refine))
+            || INNER_RINGS.into_iter().any(|inner| self.refine_around(t, inner))
+    }
+
     /// Refines so many rings around triangle `t`; false, and nothing done, where
     /// what surrounds them cannot be brought inside the bounds.
     fn refine_around(&mut self, t: u32, inner: usize) -> bool {
-        let mut inside = rings(&self.store, &[t], inner);
+        self.work_inside(rings(&self.store, &[t], inner), refine::refine)
+    }
+
+    /// Refines triangles, ascending, in a way that is given; false, and nothing done,
+    /// where that fails.
+    fn work_inside(&mut self, mut inside: Vec<u32>, refine: Refine) -> bool {
         let cut = Cut::new(&self.store, rings(&self.store, &inside, RINGS));
         inside.retain(|&t| !self.is_exempt(t));
         let marks: Vec<bool> = cut.triangles.iter().map(|t| inside.binary_search(t).is_ok()).collect();
-        match refine::refine(&cut, &self.tools, &marks) {
+        match refine(&cut, &self.tools, &marks) {
             Some(work) if cut.keeps_disk(&work.mesh) => {
                 cut.put_back(&mut self.store, &work.mesh, &work.failed);
                 true

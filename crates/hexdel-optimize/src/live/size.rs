@@ -5,10 +5,9 @@ use std::sync::Arc;
 
 use hexdel_geom::DVec2;
 
-use crate::live::cut::{Cut, rings};
 use crate::live::store::Vertex;
 use crate::live::verify::{Written, settle_changes};
-use crate::live::{INNER_RINGS, LiveError, LiveMesh, RINGS, refine, thin};
+use crate::live::{INNER_RINGS, LiveError, LiveMesh, refine, thin};
 use crate::mesh::Motion;
 use crate::sizing::{Sizing, edge_fits, triangle_fits};
 
@@ -126,16 +125,7 @@ impl LiveMesh {
 
     /// Cuts all these triangles in four at once.
     fn refine_all(&mut self, inside: &[u32]) -> bool {
-        let cut = Cut::new(&self.store, rings(&self.store, inside, RINGS));
-        let is_inside = |t: &u32| inside.binary_search(t).is_ok() && !self.is_exempt(*t);
-        let marks: Vec<bool> = cut.triangles.iter().map(is_inside).collect();
-        match refine::refine(&cut, &self.tools, &marks) {
-            Some(work) if cut.keeps_disk(&work.mesh) => {
-                cut.put_back(&mut self.store, &work.mesh, &work.failed);
-                true
-            }
-            _ => false,
-        }
+        self.work_inside(inside.to_vec(), refine::refine)
     }
 
     /// Removes vertices where the sizing allows longer edges than `old` did.
