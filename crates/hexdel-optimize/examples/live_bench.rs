@@ -64,10 +64,44 @@ fn main() {
     report("remove", &mut times);
     println!("now {} triangles", live.counts()[1]);
     check(&live, bounds, &all[..n]);
+    close(&mut live, &all[..n.min(8)]);
+}
+
+/// Points ever closer to others, each taken out again.
+fn close(live: &mut LiveMesh, others: &[DVec2]) {
+    for exponent in [1, 2, 4] {
+        let distance = 0.02 * 10_f64.powi(-exponent);
+        let (mut inserted, mut removed, mut failed) = (Vec::new(), Vec::new(), 0);
+        for (i, &p) in others.iter().enumerate() {
+            let turn = DVec2::from_angle(i as f64);
+            let began = cpu_ms();
+            let slot = live.insert(p + distance * turn);
+            inserted.push(cpu_ms() - began);
+            live.take_step();
+            let Ok(slot) = slot else {
+                failed += 1;
+                continue;
+            };
+            let began = cpu_ms();
+            live.release(slot).expect("room");
+            removed.push(cpu_ms() - began);
+            live.take_step();
+        }
+        println!(
+            "{distance:.0e} from another: {failed} of {} failed, now {} triangles",
+            others.len(),
+            live.counts()[1]
+        );
+        report("  insert", &mut inserted);
+        report("  remove", &mut removed);
+    }
 }
 
 fn report(what: &str, times: &mut [f64]) {
     times.sort_by(f64::total_cmp);
+    if times.is_empty() {
+        return;
+    }
     let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
     let mean = times.iter().sum::<f64>() / times.len() as f64;
     println!(

@@ -70,6 +70,9 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
     // triangle they need not try for the next.
     let mut tried = vec![false; work.mesh.pos.len()];
     for t in work.bad() {
+        if work.patch.visits() >= work.allowance {
+            return;
+        }
         if !work.is_bad(t) {
             continue;
         }

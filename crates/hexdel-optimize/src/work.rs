@@ -36,6 +36,8 @@ pub(crate) struct Work<'a> {
     pub(crate) failed: Vec<u8>,
     pub(crate) stats: Stats,
     pub(crate) scratch: Scratch,
+    /// Repair stops once sweeps have gone over so many triangles.
+    pub(crate) allowance: u64,
     /// Vertices handed to the patch.
     seeds: Vec<u32>,
 }
@@ -68,6 +70,7 @@ impl<'a> Work<'a> {
             failed,
             stats: Stats::default(),
             scratch: Scratch::default(),
+            allowance: u64::MAX,
             seeds: Vec::new(),
         }
     }

@@ -41,7 +41,9 @@ impl Tools {
     /// Work on a part in which edges may be of any length.
     pub(crate) fn free_work(&self, mesh: Mesh, mut failed: Vec<u8>) -> Work<'_> {
         failed.resize(mesh.pos.len(), 0);
-        Work::new(mesh, &self.rules, &self.refills, failed, 0)
+        let mut work = Work::new(mesh, &self.rules, &self.refills, failed, 0);
+        work.allowance = ALLOWANCE;
+        work
     }
 }
 
@@ -70,6 +72,10 @@ const FINALISTS: usize = 4;
 /// Rounds of repair of a part: what they do not reach, a larger or finer part
 /// does sooner.
 const ROUNDS: usize = 13;
+
+/// Triangles that sweeps may go over in the repair of one part: some 20 ms. Of the
+/// parts that take longer few are ever settled.
+const ALLOWANCE: u64 = 1_000_000;
 
 /// Weight of the squared angles outside, as in `refill`.
 const SHAPE_WEIGHT: f64 = 0.1;

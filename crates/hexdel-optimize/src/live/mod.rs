@@ -113,6 +113,17 @@ pub struct LiveMesh {
 /// move, the last one stays.
 const RINGS: usize = 5;
 
+/// Rings whose triangles get a vertex in their middle where a point finds no room, before
+/// any are cut in four.
+const BLOOM_RINGS: [usize; 2] = [1, 2];
+
+/// The same while another point is so close that edges have to become much shorter: with
+/// one ring the next round would find no vertices to move around the last one's.
+const CROWDED_RINGS: [usize; 2] = [3, 2];
+
+/// Parts that are repaired in vain for one point, at most.
+const MOST_FAILURES: usize = 16;
+
 /// Rings that are refined where a point finds no room, in the order of trying:
 /// one is enough in nine of ten cases.
 const INNER_RINGS: [usize; 4] = [1, 2, 0, 3];
@@ -205,14 +216,14 @@ impl LiveMesh {
             return self.pin(v, p);
         }
         let (mark, serials) = (self.store.mark(), self.store.serials);
+        let mut failures = 0;
         for _ in 0..MOST_REFINEMENTS {
             let spot = self.locate(p)?;
-            if !self.is_crowded(spot.triangle, p)
-                && let Some(v) = self.insert_at(spot, p, mark, false)
-            {
+            let crowded = self.is_crowded(spot.triangle, p);
+            if !crowded && let Some(v) = self.insert_at(spot, p, mark, false) {
                 return Ok(v);
             }
-            if !self.make_room(spot.triangle) {
+            if !self.make_room(spot.triangle, crowded, &mut failures) {
                 break;
             }
         }
@@ -258,9 +269,22 @@ impl LiveMesh {
 
     /// Makes triangles smaller around triangle `t` that holds `p`; false, and nothing
     /// done, where what surrounds them cannot be brought inside the bounds.
-    fn make_room(&mut self, t: u32) -> bool {
-        [1, 2].into_iter().any(|inner| self.work_inside(rings(&self.store, &[t], inner), bloom::refine))
-            || INNER_RINGS.into_iter().any(|inner| self.refine_around(t, inner))
+    fn make_room(&mut self, t: u32, crowded: bool, failures: &mut usize) -> bool {
+        let soon = |inner| self.work_inside(rings(&self.store, &[t], inner), bloom::refine);
+        let blooms = if crowded { CROWDED_RINGS } else { BLOOM_RINGS };
+        if blooms.into_iter().any(soon) {
+            return true;
+        }
+        for inner in INNER_RINGS {
+            if *failures >= MOST_FAILURES {
+                break;
+            }
+            if self.refine_around(t, inner) {
+                return true;
+            }
+            *failures += 1;
+        }
+        false
     }
 
     /// Refines so many rings around triangle `t`; false, and nothing done, where

@@ -3,7 +3,7 @@
 
 use hexdel_geom::DVec2;
 
-use crate::decimate::{LATE, Pass, decimate};
+use crate::decimate::{PATIENT, Pass, decimate};
 use crate::live::cut::{Cut, rings};
 use crate::live::insert::Tools;
 use crate::live::store::{Store, Vertex};
@@ -13,8 +13,8 @@ use crate::mesh::Motion;
 /// new around is not tried again. A pass of four rings takes half as long
 /// again for a hundredth fewer triangles.
 const PASSES: [Pass; 2] = [
-    Pass { rings: 2, refills: 1, max_cost: 0.5, near: 0.0, patience: LATE },
-    Pass { rings: 3, refills: 2, max_cost: 0.6, near: 0.01, patience: LATE },
+    Pass { rings: 2, refills: 1, max_cost: 0.5, near: 0.0, patience: PATIENT },
+    Pass { rings: 3, refills: 2, max_cost: 0.6, near: 0.01, patience: PATIENT },
 ];
 
 /// Parts that are worked on after one change, at most: what a removed point
