@@ -66,6 +66,16 @@ const CLEAR: f64 = 0.7;
 /// The same for a point that has a ring, too.
 const CLEAR_OF_RING: f64 = 0.45;
 
+/// How far beyond the ring a free end is that is not on it, in lengths of the
+/// ring's edges beside it: what is between has the room for good angles.
+const BEYOND: f64 = 4.0;
+
+/// Whether a free end is a vertex of a ring: its triangles, with one side along the
+/// radius, have no obtuse angle.
+fn is_on_ring(spoke: &Spoke, beside: f64, radius: f64) -> bool {
+    spoke.length * libm::cos(beside) <= radius * (1.0 + 4.0 * f64::EPSILON)
+}
+
 /// A ring around a site.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fan {
@@ -101,8 +111,10 @@ pub(crate) fn with_fans(
     let corners: Vec<&[Spoke]> = spokes.corners(near).collect();
     let ringed: FxHashSet<u32> = corners.iter().map(|at| at[0].site).collect();
     let fan = |at: &&[Spoke]| {
-        let area = area(scene.sites[at[0].site as usize]);
-        spokes.fan(input, at, &ringed, area)
+        let site = at[0].site;
+        // Twice the largest triangle's area is less than the radius squared.
+        let most = area(scene.sites[site as usize]).sqrt();
+        spokes.fan(input, at, &ringed, most)
     };
     let found: Vec<Fan> = corners.iter().filter_map(fan).collect();
     if !found.is_empty() {
@@ -131,11 +143,18 @@ struct Spokes<'a> {
     all: Vec<Spoke>,
 }
 
-/// A ring to be: for each spoke the piece, and the angles between its direction
-/// and the next one's at which the ring has vertices.
+/// A ring to be.
 struct Ring {
     fan: Fan,
-    spokes: Vec<(u32, Vec<f64>)>,
+    spokes: Vec<RingSpoke>,
+}
+
+struct RingSpoke {
+    piece: u32,
+    /// Whether the ring passes through the end of the piece.
+    ends_there: bool,
+    /// Angles to vertices of the ring before the next spoke.
+    angles: Vec<f64>,
 }
 
 impl<'a> Spokes<'a> {
@@ -175,20 +194,17 @@ impl<'a> Spokes<'a> {
         })
     }
 
-    /// The fan at a corner; `None` if there is no room.
-    fn fan(&self, input: &Validated, at: &[Spoke], ringed: &FxHashSet<u32>, area: f64) -> Option<Fan> {
+    /// The fan at a corner, of a radius of `most` at most; `None` if there is no room.
+    fn fan(&self, input: &Validated, at: &[Spoke], ringed: &FxHashSet<u32>, most: f64) -> Option<Fan> {
         let site = at[0].site;
-        // Twice the largest triangle's area is less than the radius squared.
-        let clear = self.clear_radius(input, site, ringed).min(area.sqrt());
-        let free = || at.iter().zip(beside(at)).filter(|(s, _)| s.free);
+        let clear = self.clear_radius(input, site, ringed).min(most);
+        let beside = beside(at, &divisions(at));
+        let free = || at.iter().zip(beside.iter().copied()).filter(|(s, _)| s.free);
         let first = free().map(|(s, _)| s.length).fold(f64::INFINITY, f64::min);
         let mut radius = clear.min(first);
-        // A free end is on the ring, or as far from it as its neighbours.
-        let fits = |(s, gap): (&Spoke, f64)| {
-            s.length - radius <= 0.25 * gap * gap * radius || s.length >= (1.0 + gap) * radius
-        };
-        if !free().all(fits) {
-            radius = free().map(|(s, gap)| s.length / (1.0 + gap)).fold(radius, f64::min);
+        let beyond = |(s, gap): (&Spoke, f64)| s.length / (1.0 + BEYOND * gap);
+        if !free().all(|(s, gap)| is_on_ring(s, gap, radius) || beyond((s, gap)) >= radius) {
+            radius = free().map(beyond).fold(radius, f64::min);
         }
         (radius > 0.0 && radius.is_finite()).then_some(Fan { site, radius })
     }
@@ -236,20 +252,30 @@ impl<'a> Spokes<'a> {
 
     fn ring(&self, fan: Fan) -> Ring {
         let at = self.at(fan.site);
-        let gaps = gaps(at);
-        let starts: Vec<f64> = at.iter().map(|s| s.angle).collect();
-        let size = |angle: f64| {
-            let sizes = starts.iter().zip(&gaps).map(|(start, gap)| {
-                let into = (angle - start).rem_euclid(TAU);
-                let away = if into <= *gap { 0.0 } else { (into - gap).min(TAU - into) };
-                gap + GROWTH * away
-            });
-            sizes.fold(WIDEST, f64::min)
+        let angles = divisions(at);
+        let spoke = |((s, beside), angles): ((&Spoke, f64), Vec<f64>)| RingSpoke {
+            piece: s.piece,
+            ends_there: s.free && is_on_ring(s, beside, fan.radius),
+            angles,
         };
-        let spokes =
-            at.iter().zip(&gaps).map(|(s, gap)| (s.piece, divided(*gap, |a| size(s.angle + a)))).collect();
-        Ring { fan, spokes }
+        Ring { fan, spokes: at.iter().zip(beside(at, &angles)).zip(angles).map(spoke).collect() }
     }
+}
+
+/// The angles, from each spoke, at which a ring has vertices before the next: close
+/// together beside narrow corners.
+fn divisions(at: &[Spoke]) -> Vec<Vec<f64>> {
+    let gaps = gaps(at);
+    let starts: Vec<f64> = at.iter().map(|s| s.angle).collect();
+    let size = |angle: f64| {
+        let sizes = starts.iter().zip(&gaps).map(|(start, gap)| {
+            let into = (angle - start).rem_euclid(TAU);
+            let away = if into <= *gap { 0.0 } else { (into - gap).min(TAU - into) };
+            gap + GROWTH * away
+        });
+        sizes.fold(WIDEST, f64::min)
+    };
+    at.iter().zip(&gaps).map(|(s, gap)| divided(*gap, |a| size(s.angle + a))).collect()
 }
 
 /// The angles from each spoke to the next, radians.
@@ -261,10 +287,16 @@ fn gaps(at: &[Spoke]) -> Vec<f64> {
     (0..at.len()).map(gap).collect()
 }
 
-/// The smaller of the gaps beside each spoke, or the widest angle of a fan.
-fn beside(at: &[Spoke]) -> Vec<f64> {
+/// The narrower of a fan's triangles beside each spoke, radians.
+fn beside(at: &[Spoke], divisions: &[Vec<f64>]) -> Vec<f64> {
     let gaps = gaps(at);
-    (0..at.len()).map(|i| gaps[i].min(gaps[(i + gaps.len() - 1) % gaps.len()]).min(WIDEST)).collect()
+    let narrower = |i: usize| {
+        let last = (i + gaps.len() - 1) % gaps.len();
+        let after = divisions[i].first().copied().unwrap_or(gaps[i]);
+        let before = gaps[last] - divisions[last].last().copied().unwrap_or(0.0);
+        after.min(before)
+    };
+    (0..at.len()).map(narrower).collect()
 }
 
 /// The angles, between 0 and `gap`, that divide a gap into parts of a size that
@@ -310,18 +342,21 @@ impl Scene {
         for ring in rings {
             let Fan { site, radius } = ring.fan;
             let mut all = Vec::new();
-            for (p, angles) in &ring.spokes {
-                let piece = self.pieces[*p as usize];
+            for spoke in &ring.spokes {
+                let p = spoke.piece as usize;
+                let piece = self.pieces[p];
                 let from = usize::from(piece.ends[0] != site);
                 let other = piece.ends[1 - from];
                 let [a, b] = [site, other].map(|s| self.sites[s as usize]);
-                let t = radius / a.distance(b);
-                // At a free end the ring passes through it.
-                let vertex = if t > 0.999_999 { other } else { self.add(point_on_segment(a, b, t), site) };
-                on[*p as usize][from] = vertex;
+                let vertex = if spoke.ends_there {
+                    other
+                } else {
+                    self.add(point_on_segment(a, b, radius / a.distance(b)), site)
+                };
+                on[p][from] = vertex;
                 all.push(vertex);
                 let start = direction(b - a);
-                for angle in angles {
+                for angle in &spoke.angles {
                     let (sin, cos) = libm::sincos(start + angle);
                     let vertex = self.add(a + radius * DVec2::new(cos, sin), site);
                     soft.push([site, vertex]);

@@ -5,7 +5,7 @@ use crate::carve::carve;
 use crate::compact::{Kept, compact};
 use crate::embed::embed;
 use crate::error::PslgError;
-use crate::fans::{Scene, with_fans};
+use crate::fans::{Fan, Scene, with_fans};
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::optimise;
 use crate::hull::with_hull;
@@ -84,14 +84,15 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     if options.method == SegmentMethod::Paper {
         return paper::mesh(input, options, monitor);
     }
-    let mesher = Mesher::new(input, options);
-    let mut demands = Vec::new();
-    let mut retries = 0;
-    let mut best = mesher.compacted(mesher.attempt(&demands, monitor)?, monitor)?;
+    let deadline = Deadline::after(options.budget);
+    let mesher = Mesher::new(input, options, &deadline);
+    let mut wishes = Wishes { demands: Vec::new(), lattice: mesher.lattice };
+    let (mut retries, mut vain) = (0, 0);
+    let mut best = mesher.made(&wishes, monitor)?;
     let mut left = mesher.left(&best);
-    while !left.elsewhere.is_empty() && retries < options.retries && !mesher.deadline.is_over() {
-        demands.extend(left.elsewhere.iter().map(|&t| demand_at(&best, t)));
-        let net = match mesher.attempt(&demands, monitor).and_then(|net| mesher.compacted(net, monitor)) {
+    while !left.elsewhere.is_empty() && retries < options.retries && !deadline.is_over() {
+        let ringed = mesher.note(&best, &left.elsewhere, &mut wishes);
+        let net = match mesher.made(&wishes, monitor) {
             Ok(net) => net,
             Err(PslgError::Cancelled(c)) => return Err(c.into()),
             // There is no finer mesh; the one that was to become better stays.
@@ -99,15 +100,35 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
         };
         retries += 1;
         let now = mesher.left(&net);
-        // What one more level has not helped is not for the next to help.
-        if now.score() >= left.score() {
+        if now.score() < left.score() {
+            (best, left) = (net, now);
+        } else if ringed && vain < VAIN {
+            vain += 1;
+        } else {
+            // What one more level has not helped is not for the next to help.
             break;
         }
-        (best, left) = (net, now);
     }
     check(monitor)?;
     mesher.finished(best, retries, monitor)
 }
+
+/// What is to be different the next time.
+struct Wishes {
+    demands: Vec<Demand>,
+    lattice: Lattice,
+}
+
+/// With faults beside a ring, hexagons of level 0 are made this much smaller. Edges
+/// of a ring stay as they are; those beside them are found or not found depending
+/// on how they fall on hexagons, whose sizes are powers of two.
+const SHRUNK: f64 = 0.84;
+
+/// Lattices that may be tried in vain.
+const VAIN: u32 = 2;
+
+/// Lengths of a failed triangle's longest edge between it and the ring to blame.
+const BESIDE_RING: f64 = 4.0;
 
 /// Triangles that are not as they should be.
 struct Left {
@@ -144,11 +165,11 @@ struct Mesher<'a> {
     sectors: Sectors,
     wedges: Wedges,
     areas: Option<AreaLimits<'a>>,
-    deadline: Deadline,
+    deadline: &'a Deadline,
 }
 
 impl<'a> Mesher<'a> {
-    fn new(input: &'a Validated, options: &'a Options) -> Self {
+    fn new(input: &'a Validated, options: &'a Options, deadline: &'a Deadline) -> Self {
         let circle =
             smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
         let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
@@ -158,17 +179,7 @@ impl<'a> Mesher<'a> {
         let sectors = Sectors::of(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
         let wedges = sectors.wedges(&scene.pieces);
         let reach = scene.sites.iter().map(|p| p.distance(circle.center)).fold(circle.radius, f64::max);
-        Self {
-            input,
-            options,
-            lattice: lattice_for(circle),
-            reach,
-            scene,
-            sectors,
-            wedges,
-            areas,
-            deadline: Deadline::after(options.budget),
-        }
+        Self { input, options, lattice: lattice_for(circle), reach, scene, sectors, wedges, areas, deadline }
     }
 
     fn judge(&self) -> Judge<'_> {
@@ -182,6 +193,32 @@ impl<'a> Mesher<'a> {
     /// Whether a triangle lies where no mesh could keep the bounds.
     fn is_hopeless(&self, net: &Net, t: u32) -> bool {
         self.sectors.near(net.corners(t)).is_some_and(|(s, _)| s.is_hopeless())
+    }
+
+    /// One mesh, compacted.
+    fn made(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Net, PslgError> {
+        self.compacted(self.attempt(wishes, monitor)?, monitor)
+    }
+
+    /// Notes what would help triangles that are left: another lattice beside rings,
+    /// smaller hexagons elsewhere. Whether there are any beside rings.
+    fn note(&self, net: &Net, left: &[u32], wishes: &mut Wishes) -> bool {
+        let (ringed, others): (Vec<u32>, Vec<u32>) =
+            left.iter().partition(|&&t| self.judge().is_out(net, t) && self.is_beside_ring(net.corners(t)));
+        wishes.demands.extend(others.into_iter().map(|t| demand_at(net, t)));
+        if !ringed.is_empty() {
+            let lattice = wishes.lattice;
+            wishes.lattice = Lattice::new(lattice.origin(), SHRUNK * lattice.spacing(0));
+        }
+        !ringed.is_empty()
+    }
+
+    /// Whether a triangle is beside the ring of a fan.
+    fn is_beside_ring(&self, [a, b, c]: [DVec2; 3]) -> bool {
+        let centre = (a + b + c) / 3.0;
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let off = |fan: &Fan| (self.sites()[fan.site as usize].distance(centre) - fan.radius).abs();
+        self.scene.fans.iter().any(|fan| off(fan) <= BESIDE_RING * longest)
     }
 
     fn left(&self, net: &Net) -> Left {
@@ -210,7 +247,7 @@ impl<'a> Mesher<'a> {
             judge: self.judge(),
             areas: self.areas.as_ref(),
             strict,
-            deadline: &self.deadline,
+            deadline: self.deadline,
         }
     }
 
@@ -223,7 +260,7 @@ impl<'a> Mesher<'a> {
             sectors: &self.sectors,
             judge: self.judge(),
             method: self.options.method,
-            deadline: &self.deadline,
+            deadline: self.deadline,
             areas: self.areas.as_ref(),
         };
         let made = output::finish(net.clone(), &parts, retries, monitor)?;
@@ -236,7 +273,7 @@ impl<'a> Mesher<'a> {
     }
 
     /// One mesh, from the grid on.
-    fn attempt(&self, demands: &[Demand], monitor: &dyn Monitor) -> Result<Net, PslgError> {
+    fn attempt(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Net, PslgError> {
         let spacing = |p: DVec2| {
             self.areas.as_ref().map_or(f64::INFINITY, |areas| (areas.at(p) / AREA_PER_SPACING_SQ).sqrt())
         };
@@ -244,13 +281,14 @@ impl<'a> Mesher<'a> {
             sites: self.sites(),
             pieces: &self.scene.pieces,
             input_of_site: &self.scene.input_of_site,
-            demands,
+            demands: &wishes.demands,
             limit: self.areas.as_ref().map(|_| &spacing as &dyn Fn(DVec2) -> f64),
             max_triangles: self.options.max_triangles,
         };
-        let mut refiner = refine(self.lattice, &features, monitor)?;
+        let mut refiner = refine(wishes.lattice, &features, monitor)?;
         let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
-        let too_many = || PslgError::TooMany { limit: self.options.max_triangles, at: self.lattice.origin() };
+        let too_many =
+            || PslgError::TooMany { limit: self.options.max_triangles, at: wishes.lattice.origin() };
         let dual =
             extract(refiner.grid_mut(), &[], domain, Relocation::Full, monitor).map_err(|e| match e {
                 DualError::Cancelled(c) => PslgError::Cancelled(c),
@@ -265,7 +303,7 @@ impl<'a> Mesher<'a> {
             return Err(PslgError::NothingEnclosed);
         }
         let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
-        optimise(&mut net, self.judge(), &excused, &self.deadline, monitor)?;
+        optimise(&mut net, self.judge(), &excused, self.deadline, monitor)?;
         Ok(net)
     }
 }

@@ -227,6 +227,25 @@ fn narrow_corners_spoil_triangles_at_their_point_only() {
     }
 }
 
+#[test]
+fn needles_in_a_frame_spoil_triangles_at_their_point_only() {
+    let inside = Options::new().extent(Extent::Inside);
+    for name in support::NEEDLES {
+        // Closed splinters, two fans with a long strip between, hold from a degree on.
+        let least = if matches!(name, "closed" | "kite") { 1.0 } else { 0.1 };
+        for (angle, seeds) in [(0.1, 0..1), (0.3, 1..2), (1.0, 2..4)] {
+            for seed in seeds.filter(|_| angle >= least) {
+                let pslg = support::needle(name, angle, seed);
+                let made = made(&pslg, &inside);
+                let what = format!("{name}, {angle} degrees, {seed}");
+                assert!(made.holds(), "{what}: {:?}", made.failed);
+                assert_eq!(support::check(&pslg, &made), Ok(()), "{what}");
+                assert!(is_at_points(&made, &[4, 5, 6, 7, 0]), "{what}: {:?}", made.exempt);
+            }
+        }
+    }
+}
+
 /// Whether all exempt triangles have a corner at one of these points.
 fn is_at_points(made: &PslgMesh, points: &[usize]) -> bool {
     made.exempt.iter().all(|e| {
@@ -325,7 +344,7 @@ fn what_is_no_better_does_not_cost_the_mesh() {
     };
     let (mut little, mut enough) = (1, 200_000);
     while enough - little > 1 {
-        let limit = (little + enough) / 2;
+        let limit = usize::midpoint(little, enough);
         match run(0, limit, &UntilOptimised(AtomicBool::new(false))) {
             Err(PslgError::Cancelled(_)) => enough = limit,
             Err(PslgError::TooMany { .. }) => little = limit,

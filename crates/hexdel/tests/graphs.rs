@@ -128,13 +128,21 @@ fn narrow_corners_are_exempt_or_blamed() {
     hold(&made);
     assert!(made.exempt.iter().all(|e| matches!(e.reason, Reason::Sector { point: 4 | 7, .. })));
 
-    // A tenth of a degree, for which the method is not made.
-    let apex = DVec2::new(4.0, 3.0 + 0.1_f64.to_radians().tan());
-    let mut needle = graph("narrow");
-    needle.points = vec![DVec2::ZERO, DVec2::new(8.0, 0.0), DVec2::new(8.0, 6.0), DVec2::new(0.0, 6.0)];
-    needle.points.extend([DVec2::new(3.0, 3.0), DVec2::new(4.0, 3.0), apex]);
-    needle.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [4, 6]];
-    let made = triangulate_pslg(&needle).unwrap();
+    let needle = |angle_deg: f64| {
+        let apex = DVec2::new(4.0, 3.0 + angle_deg.to_radians().tan());
+        let mut needle = graph("narrow");
+        needle.points = vec![DVec2::ZERO, DVec2::new(8.0, 0.0), DVec2::new(8.0, 6.0), DVec2::new(0.0, 6.0)];
+        needle.points.extend([DVec2::new(3.0, 3.0), DVec2::new(4.0, 3.0), apex]);
+        needle.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [4, 6]];
+        needle
+    };
+    let made = triangulate_pslg(&needle(0.1)).unwrap();
+    hold(&made);
+    let apex = made.vertex_of_input()[4].unwrap();
+    assert!(made.exempt.iter().all(|e| made.mesh.triangles[e.triangle.index()].contains(&apex)));
+
+    // A fiftieth of a degree, for which the method is not made.
+    let made = triangulate_pslg(&needle(0.02)).unwrap();
     let report = made.report();
     assert!(!made.holds() && !report.holds && !report.failed.is_empty());
     assert_eq!(report.certificate.out_of_bounds, report.failed.len() + report.exempt.len());

@@ -218,6 +218,42 @@ pub fn wedge(angle_deg: f64, seed: u64) -> Pslg {
     chain(&[ends[0], DVec2::ZERO, ends[1]], false)
 }
 
+/// What [`needle`] knows.
+pub const NEEDLES: [&str; 6] = ["open", "even", "nearly even", "closed", "kite", "on the side"];
+
+/// A frame of 8 by 6 with two segments in it, or a closed splinter, that meet at a
+/// small angle. Every other one is parallel to the frame.
+pub fn needle(name: &str, angle_deg: f64, seed: u64) -> Pslg {
+    let mut random = Random::new(seed);
+    let angle = angle_deg.to_radians();
+    let mut pslg = chain(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)], true);
+    if name == "on the side" {
+        let (from, length) = (random.within(1.0, 3.0), random.within(1.0, 4.0));
+        pslg.points.extend([DVec2::new(from, 0.0), DVec2::new(from + length, length * angle.tan())]);
+        pslg.segments.push([4, 5]);
+        return pslg;
+    }
+    let turn = if seed.is_multiple_of(2) { 0.0 } else { random.within(0.0, TAU) };
+    let at = DVec2::new(random.within(3.0, 5.0), random.within(2.5, 3.5));
+    let point = |length: f64, angle: f64| at + DVec2::from_angle(turn + angle) * length;
+    let part = match name {
+        "even" => 1.0 / angle.cos(),
+        "nearly even" => 1.0 + angle * random.within(0.0, 4.0),
+        _ => random.within(0.5, 1.0),
+    };
+    let ends = [point(1.0, 0.0), at, point(part, angle)];
+    match name {
+        "closed" => append(&mut pslg, &chain(&ends, true)),
+        "kite" => {
+            // The corner at the far end is no narrower.
+            let far = point(part * random.within(1.5, 1.9), 0.5 * angle);
+            append(&mut pslg, &chain(&[at, point(part, 0.0), far, point(part, angle)], true));
+        }
+        _ => append(&mut pslg, &chain(&ends, false)),
+    }
+    pslg
+}
+
 /// Segments of different lengths from one point, evenly around it.
 pub fn rays(n: u32, seed: u64) -> Pslg {
     let mut random = Random::new(seed);
