@@ -32,7 +32,7 @@ pub(crate) fn step(round: usize) -> Step {
     match round {
         0 => Step::Move { rings: 2 },
         1 | 2 => Step::Move { rings: 3 },
-        3 => Step::Search { changes: 6, rings: 2, wide: false },
+        3 => Step::Search { changes: 10, rings: 2, wide: false },
         4 => Step::Search { changes: 20, rings: 3, wide: false },
         r if r % 4 == 1 => Step::Thin,
         r if r % 8 == 3 && r > 8 => Step::Refine,
@@ -55,10 +55,36 @@ const KEEP_BELOW: f64 = 0.9;
 /// corners some degrees outside, which motion and search can settle.
 const TOLERATED: f64 = 0.1;
 
-const MOVE: Effort =
-    Effort { sweeps: Sweeps { most: 40, stall: 0.7, hope: f64::INFINITY }, turns: 3, near: 0.3, steps: 4 };
-const SCREEN: Effort =
-    Effort { sweeps: Sweeps { most: 16, stall: 0.7, hope: 0.5 }, turns: 1, near: 0.3, steps: 2 };
+/// How much is done for each bad triangle.
+struct Care {
+    motion: Effort,
+    screen: Effort,
+    /// Changes that are worked out after screening.
+    finalists: usize,
+}
+
+/// Starts of points have a bad triangle for each point, most of which any of several
+/// changes settles, and what one round leaves the next one tries.
+const CURSORY: Care = Care {
+    motion: Effort { sweeps: MOTION, turns: 3, near: 0.3, steps: 4 },
+    screen: Effort { sweeps: Sweeps { most: 16, hope: 0.5, ..MOTION }, turns: 1, near: 0.3, steps: 2 },
+    finalists: 1,
+};
+
+/// Where there are segments bad triangles are few and hard.
+const THOROUGH: Care = Care {
+    motion: Effort { sweeps: MOTION, turns: 2, near: 0.3, steps: 4 },
+    screen: Effort { sweeps: Sweeps { most: 16, ..MOTION }, turns: 2, near: 1.0, steps: 2 },
+    finalists: 4,
+};
+
+impl Care {
+    fn of(mesh: &Mesh) -> &'static Self {
+        if mesh.is_constrained() { &THOROUGH } else { &CURSORY }
+    }
+}
+
+const MOTION: Sweeps = Sweeps { most: 40, stall: 0.7, hope: f64::INFINITY };
 const FINISH: Effort =
     Effort { sweeps: Sweeps { most: 40, stall: 0.8, hope: f64::INFINITY }, turns: 3, near: 0.3, steps: 8 };
 
@@ -138,13 +164,14 @@ pub(crate) fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
 
 /// Moves ever more rings around `t`; true when that settled the patch.
 fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
+    let motion = Care::of(&work.mesh).motion;
     let corners = work.mesh.tri[t as usize].v;
     for r in 1..=rings {
         load_rings(work, &corners, r);
         let before = work.patch.state(work.rules).energy;
         let last = r == rings;
         work.stats.repairs[0] += 1;
-        let state = work.solve(if last { MOVE } else { Effort { near: 0.0, ..MOVE } });
+        let state = work.solve(if last { motion } else { Effort { near: 0.0, ..motion } });
         if state.solved && work.changes_hold() {
             work.stats.repairs[1] += 1;
             work.commit();
@@ -160,51 +187,51 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
 }
 
 /// Tries changes of topology near `t`, best first, and keeps the first that
-/// settles everything; or else works out the one that lowers the energy most.
+/// settles everything; or else works out those that lower the energy most.
 fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let corners = work.mesh.tri[t as usize].v;
     let mut changes = Vec::new();
     load_rings(work, &corners, if wide { 2 } else { 1 });
     let around = work.patch.vertices().to_vec();
     Finder { mesh: &work.mesh, rules: work.rules, refills: work.refills, out: &mut changes }.find(t, &around);
-    let mut likeliest: Option<(f64, Action)> = None;
+    let care = Care::of(&work.mesh);
+    let mut ranked: Vec<(f64, Action)> = Vec::new();
     for change in changes.into_iter().take(most) {
-        let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else {
+        let Some((before, state)) = attempt(work, change.action, corners, 1, care.screen) else {
             continue;
         };
         if keep_if_solved(work, state) {
             return;
         }
         work.mesh.rollback();
-        let gain = state.energy - before;
-        if likeliest.is_none_or(|(least, _)| gain < least) {
-            likeliest = Some((gain, change.action));
-        }
+        ranked.push((state.energy - before, change.action));
     }
-    if let Some((_, action)) = likeliest {
-        work_out(work, action, corners, rings);
-    }
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.truncate(care.finalists);
+    work_out(work, &ranked, corners, rings);
 }
 
-/// Moves ever more rings around a change: kept if that settles everything, or else
-/// as it lowers the energy most.
-fn work_out(work: &mut Work, action: Action, corners: [u32; 3], rings: usize) {
-    let mut best: Option<(f64, usize)> = None;
-    for r in 2..=rings.max(2) {
-        let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
-            continue;
-        };
-        if keep_if_solved(work, state) {
-            return;
-        }
-        let valid = work.stays_valid();
-        work.mesh.rollback();
-        let gain = state.energy - before;
-        if valid && state.energy < KEEP_BELOW * before && best.is_none_or(|(least, _)| gain < least) {
-            best = Some((gain, r));
+/// Moves ever more rings around each of some changes: kept is the first that settles
+/// everything, or else what lowers the energy most.
+fn work_out(work: &mut Work, ranked: &[(f64, Action)], corners: [u32; 3], rings: usize) {
+    let mut best: Option<(f64, Action, usize)> = None;
+    for &(_, action) in ranked {
+        for r in 2..=rings.max(2) {
+            let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
+                continue;
+            };
+            if keep_if_solved(work, state) {
+                return;
+            }
+            let valid = work.stays_valid();
+            work.mesh.rollback();
+            let gain = state.energy - before;
+            if valid && state.energy < KEEP_BELOW * before && best.is_none_or(|b| gain < b.0) {
+                best = Some((gain, action, r));
+            }
         }
     }
-    if let Some((_, r)) = best
+    if let Some((_, action, r)) = best
         && attempt(work, action, corners, r, FINISH).is_some()
     {
         work.commit();
