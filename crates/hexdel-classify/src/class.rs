@@ -123,7 +123,11 @@ struct Rows {
 }
 
 impl Rows {
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "called, it would wait for the fins to be written before it reads them"
+    )]
+    #[inline(always)]
     fn of(fins: &[Window; 6]) -> Self {
         let f = |d: usize| fins[d % 6];
         // starts: fins with none before them, counter-clockwise. Exactly one
@@ -284,6 +288,15 @@ pub fn middle_fin(subdivided: Window, at: Hex) -> Option<Direction> {
     }
 }
 
+/// Whether a hexagon, up to two beyond the tile, is a
+/// [`Class::MovedCenter3`] with its middle fin in direction `d`.
+#[inline]
+pub fn has_middle_fin(subdivided: Window, at: Hex, d: Direction) -> bool {
+    // Three in a row, the middle one in direction `d`: of two such rounds, six.
+    let fins = (0b1000_1110_0011 >> (6 - d.index()) & 63) as u8;
+    subdivided.ring_of(at) == fins && !subdivided.contains(at)
+}
+
 /// Where a cyclic run of set bits among six starts and how long it is; `None`
 /// if there is none, more than one, or all six are set.
 #[inline]
@@ -326,6 +339,9 @@ mod tests {
                 assert_eq!(irregular(set).contains(centre), !is_regular(fins));
                 let middle = Direction::ALL.into_iter().find(|d| classes.middle[d.index()].contains(centre));
                 assert_eq!(middle_fin(set, centre), middle);
+                for d in Direction::ALL {
+                    assert_eq!(has_middle_fin(set, centre, d), middle == Some(d));
+                }
             }
         }
     }

@@ -82,9 +82,9 @@ fn places(grid: &Grid, domain: Domain) -> Vec<Address> {
     let mut all: Vec<_> = patch.collect();
     for level in base..grid.tiles().levels() as u8 {
         let mut children = Vec::new();
-        for tile in grid.tiles().level(level) {
+        for (first, tile) in grid.tiles().placed(level) {
             for bit in hexdel_grid::window::ones(tile.subdivided) {
-                children.extend((tile.first() + hex_of(bit)).scaled().disc(1));
+                children.extend((first + hex_of(bit)).scaled().disc(1));
             }
         }
         children.sort_unstable();

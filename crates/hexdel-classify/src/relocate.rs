@@ -20,10 +20,11 @@
 //!       g0  t  g2
 //! ```
 
-use crate::class::{Classes, middle_fin, single_run};
+use crate::class::{Classes, has_middle_fin, single_run};
 use crate::exact::Offset;
 use hexdel_geom::DVec2;
 use hexdel_grid::{Direction, Hex, Located, Window};
+use std::sync::OnceLock;
 
 /// How far a `MovedCenter1` goes towards its fin.
 pub fn towards_one(fin: Direction) -> Offset {
@@ -164,11 +165,34 @@ pub fn relocation(subdivided: Window, at: Hex) -> Offset {
     if subdivided.contains(at) {
         return Offset::ZERO;
     }
-    by_surroundings(subdivided.ring_of(at), || {
-        Direction::ALL
-            .into_iter()
-            .filter(|&d| middle_fin(subdivided, at.neighbour(d)) == Some(d))
-            .fold(0, |under, d| under | 1 << d.index())
+    let Moves { by_fins, by_tops } = moves();
+    match subdivided.ring_of(at) {
+        0 => by_tops[usize::from(under(subdivided, at))],
+        fins => by_fins[usize::from(fins)],
+    }
+}
+
+/// The directions in which a hexagon without fins has a `MovedCenter3` that it is
+/// the top of.
+#[inline]
+fn under(subdivided: Window, at: Hex) -> u8 {
+    Direction::ALL
+        .into_iter()
+        .fold(0, |under, d| under | u8::from(has_middle_fin(subdivided, at.neighbour(d), d)) << d.index())
+}
+
+/// Where hexagons go: by their fins, and by those beside them that they are the
+/// tops of, as sets of directions.
+struct Moves {
+    by_fins: [Offset; 64],
+    by_tops: [Offset; 64],
+}
+
+fn moves() -> &'static Moves {
+    static MOVES: OnceLock<Moves> = OnceLock::new();
+    MOVES.get_or_init(|| Moves {
+        by_fins: std::array::from_fn(|fins| by_surroundings(fins as u8, || 0)),
+        by_tops: std::array::from_fn(|tops| by_surroundings(0, || tops as u8)),
     })
 }
 

@@ -236,9 +236,8 @@ impl Grid {
     /// All subdivided hexagons, level by level.
     pub fn subdivided(&self) -> impl Iterator<Item = Address> {
         (0..self.tiles.levels() as u8).flat_map(move |level| {
-            self.tiles.level(level).iter().flat_map(move |tile| {
-                crate::window::ones(tile.subdivided)
-                    .map(move |bit| Address::new(level, tile.first() + hex_of(bit)))
+            self.tiles.placed(level).flat_map(move |(first, tile)| {
+                crate::window::ones(tile.subdivided).map(move |bit| Address::new(level, first + hex_of(bit)))
             })
         })
     }

@@ -142,13 +142,10 @@ fn nearest(q: f64, r: f64) -> Hex {
     let round = |x: f64| (x + 0.5_f64.copysign(x)) as i64;
     let (rq, rr, rs) = (round(q), round(r), round(-q - r));
     let (dq, dr, ds) = ((rq as f64 - q).abs(), (rr as f64 - r).abs(), (rs as f64 + q + r).abs());
-    if dq > dr && dq > ds {
-        Hex::new(-rr - rs, rr)
-    } else if dr > ds {
-        Hex::new(rq, -rq - rs)
-    } else {
-        Hex::new(rq, rr)
-    }
+    // Without branches: each is as likely as the next.
+    let q_is_worst = dq > dr && dq > ds;
+    let r_is_worse = !q_is_worst && dr > ds;
+    Hex::new(if q_is_worst { -rr - rs } else { rq }, if r_is_worse { -rq - rs } else { rr })
 }
 
 #[cfg(test)]

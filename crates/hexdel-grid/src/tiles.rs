@@ -39,40 +39,62 @@ impl TileId {
 
 /// Eight by eight hexagons of one level. Bit `8 r + q` of each plane is the
 /// hexagon `(q, r)` counted from the tile's first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tile {
     /// The hexagons that are subdivided.
     pub subdivided: u64,
-    /// The hexagons that the next finer level needs subdivided.
-    pub needed: u64,
     /// Two planes whose meaning the layers above define.
     pub marks: [u64; 2],
-    /// Tile coordinates: the first hexagon's address divided by [`SIDE`].
+    /// The hexagons that the next finer level needs subdivided.
+    pub needed: u64,
+}
+
+impl Tile {
+    /// A tile that holds nothing.
+    const EMPTY: Self = Self { subdivided: 0, marks: [0; 2], needed: 0 };
+}
+
+/// The 3 x 3 tiles around one, `3 row + column`, itself in the middle. Mutual:
+/// a tile that exists is linked by all its existing neighbours.
+type Around = [TileId; 9];
+
+/// Where a tile is, and its place in the quadtree.
+#[derive(Clone, Debug)]
+struct Kin {
+    /// The first hexagon's address divided by [`SIDE`].
     position: (i64, i64),
     /// The tile one level coarser whose square holds this one; `NONE` at
     /// level 0 only.
     parent: TileId,
     /// The four tiles one level finer within this square, `2 row + column`.
     children: [TileId; 4],
-    /// The 3 x 3 tiles around, `3 row + column`, itself in the middle. Mutual:
-    /// a tile that exists is linked by all its existing neighbours.
-    around: [TileId; 9],
 }
 
-impl Tile {
-    /// The address of the tile's first hexagon.
+impl Kin {
     #[inline]
-    pub const fn first(&self) -> Hex {
+    const fn first(&self) -> Hex {
         Hex::new(self.position.0 * SIDE, self.position.1 * SIDE)
     }
+}
+
+/// The tiles of a level in the order they were made; ids are indices. What is
+/// asked for together stands together: the less of the rest comes with it, the
+/// more fits into the cache.
+#[derive(Clone, Debug, Default)]
+struct Level {
+    tiles: Vec<Tile>,
+    around: Vec<Around>,
+    kin: Vec<Kin>,
 }
 
 /// The existing tiles of the 3 x 3 around one, and which of them a change in
 /// it reaches.
 #[derive(Clone, Copy, Debug)]
 pub struct Margin {
-    around: [TileId; 9],
-    /// A bit for each.
+    around: Around,
+    /// A bit for each that exists.
+    existing: u16,
+    /// A bit for each that is reached.
     reached: u16,
 }
 
@@ -80,16 +102,15 @@ impl Margin {
     /// The tiles, each with whether it is reached.
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = (TileId, bool)> {
-        let all = self.around.into_iter().enumerate();
-        all.filter_map(|(i, tile)| Some((tile.some()?, self.reached >> i & 1 == 1)))
+        let all = ones(u64::from(self.existing));
+        all.map(|i| (self.around[i as usize], self.reached >> i & 1 == 1))
     }
 }
 
 /// All tiles of all levels.
 #[derive(Clone, Debug, Default)]
 pub struct Tiles {
-    /// The tiles of each level in the order they were made; ids are indices.
-    levels: Vec<Vec<Tile>>,
+    levels: Vec<Level>,
     /// Tiles of level 0 by position.
     roots: FxHashMap<(i64, i64), TileId>,
 }
@@ -102,7 +123,13 @@ impl Tiles {
 
     /// The tiles of a level, by id; none where the level is finer than all.
     pub fn level(&self, level: u8) -> &[Tile] {
-        self.levels.get(usize::from(level)).map_or(&[], Vec::as_slice)
+        self.levels.get(usize::from(level)).map_or(&[], |level| &level.tiles)
+    }
+
+    /// The tiles of a level with the addresses of their first hexagons, by id.
+    pub fn placed(&self, level: u8) -> impl Iterator<Item = (Hex, &Tile)> {
+        let level = self.levels.get(usize::from(level));
+        level.into_iter().flat_map(|Level { tiles, kin, .. }| kin.iter().map(Kin::first).zip(tiles))
     }
 
     /// A tile.
@@ -112,7 +139,7 @@ impl Tiles {
     /// If `id` is not of `level`.
     #[inline]
     pub fn get(&self, level: u8, id: TileId) -> &Tile {
-        &self.levels[usize::from(level)][id.index()]
+        &self.levels[usize::from(level)].tiles[id.index()]
     }
 
     /// A tile, to change its planes.
@@ -122,7 +149,27 @@ impl Tiles {
     /// If `id` is not of `level`.
     #[inline]
     pub fn get_mut(&mut self, level: u8, id: TileId) -> &mut Tile {
-        &mut self.levels[usize::from(level)][id.index()]
+        &mut self.levels[usize::from(level)].tiles[id.index()]
+    }
+
+    /// The address of a tile's first hexagon.
+    ///
+    /// # Panics
+    ///
+    /// If `id` is not of `level`.
+    #[inline]
+    pub fn first(&self, level: u8, id: TileId) -> Hex {
+        self.kin(level, id).first()
+    }
+
+    #[inline]
+    fn links(&self, level: u8, id: TileId) -> &Around {
+        &self.levels[usize::from(level)].around[id.index()]
+    }
+
+    #[inline]
+    fn kin(&self, level: u8, id: TileId) -> &Kin {
+        &self.levels[usize::from(level)].kin[id.index()]
     }
 
     /// The tile that holds a hexagon and the hexagon's bit in it, if there is
@@ -133,7 +180,7 @@ impl Tiles {
         let mut id = *self.roots.get(&up(level))?;
         for k in (0..level).rev() {
             let p = up(k);
-            id = self.levels[usize::from(level - k - 1)][id.index()].children[quadrant(p)].some()?;
+            id = self.child(level - k - 1, id, quadrant(p))?;
         }
         Some((id, bit))
     }
@@ -149,24 +196,35 @@ impl Tiles {
         (id, bit)
     }
 
-    /// The same as [`require`](Self::require), faster if the hexagon lies in the
-    /// tile `hint` or beside it.
+    /// The same as [`require`](Self::require), of a hexagon in the tile `near` or
+    /// beside it; `None` if it lies elsewhere.
     #[inline]
-    pub fn require_near(&mut self, level: u8, hint: TileId, hex: Hex) -> (TileId, u32) {
+    pub fn require_near(&mut self, level: u8, near: TileId, hex: Hex) -> Option<(TileId, u32)> {
         let (position, bit) = split(hex);
-        let from = self.get(level, hint).position;
+        let from = self.kin(level, near).position;
         let (column, row) = (position.0 - from.0, position.1 - from.1);
-        if column.abs() <= 1 && row.abs() <= 1 {
-            (self.require_beside(level, hint, column, row), bit)
-        } else {
-            self.require(level, hex)
+        let adjacent = column.abs() <= 1 && row.abs() <= 1;
+        adjacent.then(|| (self.require_beside(level, near, column, row), bit))
+    }
+
+    /// The same as [`require`](Self::require), faster if the hexagon lies under the
+    /// tile `above` of the next coarser level or beside it.
+    #[inline]
+    pub fn require_under(&mut self, level: u8, above: TileId, hex: Hex) -> (TileId, u32) {
+        let (position, bit) = split(hex);
+        let from = self.kin(level - 1, above).position;
+        let (column, row) = ((position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
+        if column.abs() > 1 || row.abs() > 1 {
+            return self.require(level, hex);
         }
+        let parent = self.require_beside(level - 1, above, column, row);
+        (self.require_child(level - 1, parent, quadrant(position)), bit)
     }
 
     /// One of the 3 x 3 tiles around, `column` and `row` from -1 to 1.
     #[inline]
     pub fn beside(&self, level: u8, id: TileId, column: i64, row: i64) -> Option<TileId> {
-        self.get(level, id).around[(3 * (row + 1) + column + 1) as usize].some()
+        self.links(level, id)[(3 * (row + 1) + column + 1) as usize].some()
     }
 
     /// Makes one of the 3 x 3 tiles around exist, `column` and `row` from -1
@@ -175,13 +233,13 @@ impl Tiles {
         if let Some(there) = self.beside(level, id, column, row) {
             return there;
         }
-        let tile = self.get(level, id);
+        let tile = self.kin(level, id);
         let position = (tile.position.0 + column, tile.position.1 + row);
         if level == 0 {
             return self.require_root(position);
         }
         let parent = tile.parent;
-        let from = self.get(level - 1, parent).position;
+        let from = self.kin(level - 1, parent).position;
         let parent =
             self.require_beside(level - 1, parent, (position.0 >> 1) - from.0, (position.1 >> 1) - from.1);
         self.require_child(level - 1, parent, quadrant(position))
@@ -191,7 +249,7 @@ impl Tiles {
     /// `quadrant` = `2 row + column`.
     #[inline]
     pub fn child(&self, level: u8, id: TileId, quadrant: usize) -> Option<TileId> {
-        self.get(level, id).children[quadrant].some()
+        self.kin(level, id).children[quadrant].some()
     }
 
     /// Makes the tile one level finer in one quarter of this one's square.
@@ -199,10 +257,10 @@ impl Tiles {
         if let Some(child) = self.child(level, id, quadrant) {
             return child;
         }
-        let (q, r) = self.get(level, id).position;
+        let (q, r) = self.kin(level, id).position;
         let position = (2 * q + (quadrant as i64 & 1), 2 * r + (quadrant as i64 >> 1));
         let child = self.push(level + 1, position, id);
-        self.get_mut(level, id).children[quadrant] = child;
+        self.levels[usize::from(level)].kin[id.index()].children[quadrant] = child;
         self.link_child(level + 1, child, quadrant);
         child
     }
@@ -211,15 +269,15 @@ impl Tiles {
     /// `2 row + column`; `None` at level 0.
     #[inline]
     pub fn parent(&self, level: u8, id: TileId) -> Option<(TileId, usize)> {
-        let tile = self.get(level, id);
+        let tile = self.kin(level, id);
         Some((tile.parent.some()?, quadrant(tile.position)))
     }
 
     /// The window of a tile for one plane.
     #[inline]
     pub fn window(&self, level: u8, id: TileId, plane: impl Fn(&Tile) -> u64) -> Window {
-        let tiles = &self.levels[usize::from(level)];
-        let around = &tiles[id.index()].around;
+        let Level { tiles, around, .. } = &self.levels[usize::from(level)];
+        let around = &around[id.index()];
         let bits = |i: usize| around[i].some().map_or(0, |t| plane(&tiles[t.index()]));
         Window::gather(&[
             [bits(0), bits(1), bits(2)],
@@ -236,8 +294,8 @@ impl Tiles {
         id: TileId,
         planes: impl Fn(&Tile) -> [u64; N],
     ) -> [Window; N] {
-        let tiles = &self.levels[usize::from(level)];
-        let around = &tiles[id.index()].around;
+        let Level { tiles, around, .. } = &self.levels[usize::from(level)];
+        let around = &around[id.index()];
         let mut bits = [[[0; 3]; 3]; N];
         let mut any = [0; N];
         for (i, there) in around.iter().enumerate() {
@@ -257,7 +315,7 @@ impl Tiles {
 
     /// The existing tiles among the 3 x 3 around, itself included.
     pub fn around(&self, level: u8, id: TileId) -> impl Iterator<Item = TileId> {
-        self.get(level, id).around.into_iter().filter_map(TileId::some)
+        self.links(level, id).iter().copied().filter_map(TileId::some)
     }
 
     /// Makes the tiles exist whose window shows one of `bits`, and says which of
@@ -265,12 +323,12 @@ impl Tiles {
     #[inline]
     pub fn require_margin(&mut self, level: u8, id: TileId, bits: u64) -> Margin {
         let shown = reach(bits, &QUARTERS);
-        let around = &self.get(level, id).around;
-        let existing = (0..9).fold(0, |all, i| all | u16::from(around[i] != TileId::NONE) << i);
+        let existing = existing(self.links(level, id));
         for i in ones(u64::from(shown & !existing)) {
             self.require_beside(level, id, i64::from(i) % 3 - 1, i64::from(i) / 3 - 1);
         }
-        Margin { around: self.get(level, id).around, reached: shown & reach(bits, &CORNERS) }
+        let reached = shown & reach(bits, &CORNERS);
+        Margin { around: *self.links(level, id), existing: existing | shown, reached }
     }
 
     fn require_root(&mut self, position: (i64, i64)) -> TileId {
@@ -291,25 +349,20 @@ impl Tiles {
     fn push(&mut self, level: u8, position: (i64, i64), parent: TileId) -> TileId {
         let level = usize::from(level);
         if level == self.levels.len() {
-            self.levels.push(Vec::new());
+            self.levels.push(Level::default());
         }
-        let id = TileId::new(self.levels[level].len());
-        self.levels[level].push(Tile {
-            subdivided: 0,
-            needed: 0,
-            marks: [0; 2],
-            position,
-            parent,
-            children: [TileId::NONE; 4],
-            around: [TileId::NONE; 9],
-        });
+        let Level { tiles, around, kin } = &mut self.levels[level];
+        let id = TileId::new(tiles.len());
+        tiles.push(Tile::EMPTY);
+        around.push([TileId::NONE; 9]);
+        kin.push(Kin { position, parent, children: [TileId::NONE; 4] });
         id
     }
 
     /// Links a new tile in a quadrant of its parent with its existing
     /// neighbours, which are children of the parent and of its neighbours.
     fn link_child(&mut self, level: u8, id: TileId, quadrant: usize) {
-        let parents = self.get(level - 1, self.get(level, id).parent).around;
+        let parents = *self.links(level - 1, self.kin(level, id).parent);
         for i in 0..9 {
             let (column, row) = (quadrant % 2 + i % 3 + 1, quadrant / 2 + i / 3 + 1);
             if let Some(parent) = parents[3 * (row / 2) + column / 2].some()
@@ -323,8 +376,8 @@ impl Tiles {
     /// Links two tiles, the second being the one at `place` of the first.
     #[inline]
     fn link(&mut self, level: u8, id: TileId, other: TileId, place: usize) {
-        self.get_mut(level, id).around[place] = other;
-        self.get_mut(level, other).around[8 - place] = id;
+        self.levels[usize::from(level)].around[id.index()][place] = other;
+        self.levels[usize::from(level)].around[other.index()][8 - place] = id;
     }
 }
 
@@ -348,10 +401,16 @@ const CORNERS: [Reach; 3] = [
     (0xe0c0_8000_0000_0000, 0b100_000_000),
 ];
 
+/// A bit for each tile that exists.
+#[inline]
+fn existing(around: &Around) -> u16 {
+    (0..9).fold(0, |all, i| all | u16::from(around[i] != TileId::NONE) << i)
+}
+
 /// What some bits of a tile reach.
 #[inline]
 fn reach(bits: u64, parts: &[Reach]) -> u16 {
-    parts.iter().fold(0, |all, (part, reached)| if bits & part == 0 { all } else { all | reached })
+    parts.iter().fold(0, |all, (part, reached)| all | reached & u16::from(bits & part != 0).wrapping_neg())
 }
 
 /// The tile position of a hexagon and its bit within the tile.
@@ -385,8 +444,14 @@ mod tests {
                     let (column, row) = (i % 3 - 1, i / 3 - 1);
                     let there = h + Hex::new(SIDE * column, SIDE * row);
                     assert_eq!(tiles.beside(3, id, column, row), tiles.find(3, there).map(|(t, _)| t));
-                    assert_eq!(Some(tiles.require_near(3, id, h)), tiles.find(3, h));
+                    assert_eq!(tiles.require_near(3, id, h), tiles.find(3, h));
                 }
+                // Whatever tile of the next coarser level it is said to lie under.
+                let coarse = (0..tiles.level(2).len()).map(TileId::new);
+                for above in coarse.step_by(5).chain(tiles.parent(3, id).map(|(above, _)| above)) {
+                    assert_eq!(Some(tiles.require_under(3, above, h)), tiles.find(3, h));
+                }
+                assert_eq!(tiles.require_near(3, id, h + Hex::new(2 * SIDE, 0)), None);
             }
         }
     }
@@ -412,7 +477,7 @@ mod tests {
         let (id, bit) = tiles.require(1, Hex::new(1, 6));
         let reached = tiles.require_margin(1, id, 1 << bit);
         assert_eq!(reached.iter().filter(|(_, reached)| *reached).count(), tiles.level(1).len());
-        let made: Vec<_> = tiles.level(1).iter().map(Tile::first).collect();
+        let made: Vec<_> = tiles.placed(1).map(|(first, _)| first).collect();
         let mut expected = [Hex::new(0, 0), Hex::new(-8, 0), Hex::new(0, 8), Hex::new(-8, 8)];
         let mut made_sorted = made;
         made_sorted.sort();
@@ -430,7 +495,7 @@ mod tests {
             let margin = tiles.require_margin(1, id, 1 << bit);
             assert_eq!(margin.iter().count(), 9);
             for (tile, reached) in margin.iter() {
-                let first = tiles.get(1, tile).first();
+                let first = tiles.first(1, tile);
                 let hexes = (0..64).map(|i| first + Hex::new(i % 8, i / 8));
                 let nearest = hexes.map(|h| h.distance(at)).min();
                 assert_eq!(reached, nearest <= Some(Window::MARGIN as u64), "{at:?}, {first:?}");

@@ -47,8 +47,10 @@ impl Window {
         // Of the tiles beside, four columns are seen: both sides' in one byte
         // per row.
         const FIRST_FOUR: u64 = 0x0f0f_0f0f_0f0f_0f0f;
-        let sides = around.map(|[west, _, east]| west >> 4 & FIRST_FOUR | (east & FIRST_FOUR) << 4);
-        let (sides, middle) = (stacked(sides), stacked(around.map(|row| row[1])));
+        let beside = |[west, _, east]: [u64; 3]| west >> 4 & FIRST_FOUR | (east & FIRST_FOUR) << 4;
+        let [south, level, north] = *around;
+        let sides = stacked([beside(south), beside(level), beside(north)]);
+        let middle = stacked([south[1], level[1], north[1]]);
         let word = |k| {
             const LOW: u64 = 0x000f_000f_000f_000f;
             let beside = lanes(sides, k);

@@ -41,8 +41,8 @@ pub struct Constraints<'a> {
     /// Triangles, by their corners, for which changes of topology are not worth
     /// trying: what surrounds them has no room.
     pub hopeless: Option<Hopeless<'a>>,
-    /// No change makes a triangle larger than this where its centroid lies;
-    /// square units of the mesh.
+    /// Triangles larger than this where their centroids lie are divided if their
+    /// angles let them, and no removal makes one. Square units of the mesh.
     pub max_area: Option<AreaLimit<'a>>,
 }
 

@@ -15,6 +15,7 @@
 //! | `repair` | brings all angles inside |
 //! | `rescue` | refines where repair gives up |
 //! | `decimate` | removes vertices |
+//! | `area` | divides what is larger than allowed |
 //! | `sizing` | [`Sizing`]: how long edges may be |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill`, `segment` | candidate changes of topology and their ranking |
@@ -26,10 +27,13 @@
 //! | `angles` | bounds as polynomial tests |
 //!
 //! Every change is kept only where all angles it touches hold (in repair:
-//! where the distance outside falls), so work can be stopped at any time.
+//! where the distance outside falls; where there are segments, a round that
+//! leaves more triangles outside is taken back), so work can be stopped at any
+//! time.
 //! `docs/compact.md` says what was tried and what it cost.
 
 mod angles;
+mod area;
 mod change;
 mod constraints;
 mod decimate;

@@ -3,7 +3,8 @@
 //!
 //! A step that does not settle its patch is kept only where it lowers the
 //! energy by a tenth, so that a bad spot can be worked off in several steps
-//! but not wander.
+//! but not wander. Where there are segments, a round of steps is kept only if
+//! it leaves no more triangles outside.
 
 use crate::change::{Action, Finder, apply};
 use crate::decimate::{PATIENT, Pass, try_remove};
@@ -31,7 +32,7 @@ pub(crate) fn step(round: usize) -> Step {
     match round {
         0 => Step::Move { rings: 2 },
         1 | 2 => Step::Move { rings: 3 },
-        3 => Step::Search { changes: 10, rings: 2, wide: false },
+        3 => Step::Search { changes: 6, rings: 2, wide: false },
         4 => Step::Search { changes: 20, rings: 3, wide: false },
         r if r % 4 == 1 => Step::Thin,
         r if r % 8 == 3 && r > 8 => Step::Refine,
@@ -55,16 +56,13 @@ const KEEP_BELOW: f64 = 0.9;
 const TOLERATED: f64 = 0.1;
 
 const MOVE: Effort =
-    Effort { sweeps: Sweeps { most: 40, stall: 0.7, hope: f64::INFINITY }, turns: 2, near: 0.3, steps: 4 };
+    Effort { sweeps: Sweeps { most: 40, stall: 0.7, hope: f64::INFINITY }, turns: 3, near: 0.3, steps: 4 };
 const SCREEN: Effort =
-    Effort { sweeps: Sweeps { most: 16, stall: 0.7, hope: f64::INFINITY }, turns: 2, near: 1.0, steps: 2 };
+    Effort { sweeps: Sweeps { most: 16, stall: 0.7, hope: 0.5 }, turns: 1, near: 0.3, steps: 2 };
 const FINISH: Effort =
     Effort { sweeps: Sweeps { most: 40, stall: 0.8, hope: f64::INFINITY }, turns: 3, near: 0.3, steps: 8 };
 
 const THIN: Pass = Pass { rings: 3, refills: 2, max_cost: 0.8, near: 0.05, patience: PATIENT };
-
-/// Changes that are worked out after screening.
-const FINALISTS: usize = 4;
 
 /// One round over the bad triangles.
 pub(crate) fn repair(work: &mut Work, step: Step) {
@@ -102,15 +100,31 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
 
 /// Moves what is bad before pass `pass` of removals.
 pub(crate) fn moves(work: &mut Work, pass: usize) {
-    for &i in MOVES.get(pass).copied().unwrap_or_default() {
-        repair(work, step(i));
-    }
+    let steps = MOVES.get(pass).copied().unwrap_or_default();
+    without_loss(work, |work| steps.iter().for_each(|&i| repair(work, step(i))));
 }
 
 /// Steps `from..to`, as long as triangles are bad.
 pub(crate) fn search(work: &mut Work, (from, to): (usize, usize)) {
-    for i in from..to {
-        repair(work, step(i));
+    without_loss(work, |work| (from..to).for_each(|i| repair(work, step(i))));
+}
+
+/// Does `job` and, in a mesh with segments, takes it back if it leaves more
+/// triangles outside than it has found: a patch that does not settle may hand
+/// its fault to triangles that were good, and the start of a graph has few that
+/// are not.
+fn without_loss(work: &mut Work, job: impl FnOnce(&mut Work)) {
+    if !work.mesh.is_constrained() {
+        return job(work);
+    }
+    let many = work.bad().len();
+    if many == 0 {
+        return;
+    }
+    let before = (work.mesh.clone(), work.failed.clone());
+    job(work);
+    if work.bad().len() > many {
+        (work.mesh, work.failed) = before;
     }
 }
 
@@ -146,14 +160,14 @@ fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
 }
 
 /// Tries changes of topology near `t`, best first, and keeps the first that
-/// settles everything, or else the one that lowers the energy most.
+/// settles everything; or else works out the one that lowers the energy most.
 fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
     let corners = work.mesh.tri[t as usize].v;
     let mut changes = Vec::new();
     load_rings(work, &corners, if wide { 2 } else { 1 });
     let around = work.patch.vertices().to_vec();
     Finder { mesh: &work.mesh, rules: work.rules, refills: work.refills, out: &mut changes }.find(t, &around);
-    let mut ranked: Vec<(f64, Action)> = Vec::new();
+    let mut likeliest: Option<(f64, Action)> = None;
     for change in changes.into_iter().take(most) {
         let Some((before, state)) = attempt(work, change.action, corners, 1, SCREEN) else {
             continue;
@@ -162,27 +176,35 @@ fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
             return;
         }
         work.mesh.rollback();
-        ranked.push((state.energy - before, change.action));
-    }
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut best: Option<(f64, Action, usize)> = None;
-    for &(_, action) in ranked.iter().take(FINALISTS) {
-        for r in 2..=rings.max(2) {
-            let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
-                continue;
-            };
-            if keep_if_solved(work, state) {
-                return;
-            }
-            let valid = work.stays_valid();
-            work.mesh.rollback();
-            let gain = state.energy - before;
-            if valid && state.energy < KEEP_BELOW * before && best.is_none_or(|b| gain < b.0) {
-                best = Some((gain, action, r));
-            }
+        let gain = state.energy - before;
+        if likeliest.is_none_or(|(least, _)| gain < least) {
+            likeliest = Some((gain, change.action));
         }
     }
-    if let Some((_, action, r)) = best
+    if let Some((_, action)) = likeliest {
+        work_out(work, action, corners, rings);
+    }
+}
+
+/// Moves ever more rings around a change: kept if that settles everything, or else
+/// as it lowers the energy most.
+fn work_out(work: &mut Work, action: Action, corners: [u32; 3], rings: usize) {
+    let mut best: Option<(f64, usize)> = None;
+    for r in 2..=rings.max(2) {
+        let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
+            continue;
+        };
+        if keep_if_solved(work, state) {
+            return;
+        }
+        let valid = work.stays_valid();
+        work.mesh.rollback();
+        let gain = state.energy - before;
+        if valid && state.energy < KEEP_BELOW * before && best.is_none_or(|(least, _)| gain < least) {
+            best = Some((gain, r));
+        }
+    }
+    if let Some((_, r)) = best
         && attempt(work, action, corners, r, FINISH).is_some()
     {
         work.commit();

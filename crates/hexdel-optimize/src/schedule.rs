@@ -7,6 +7,7 @@ use hexdel_geom::monitor::check;
 use hexdel_geom::{Cancelled, Monitor, Phase, TriMesh};
 use rayon::prelude::*;
 
+use crate::area::divide_large;
 use crate::constraints::{Constraints, Rules};
 use crate::decimate::{PASSES, decimate};
 use crate::error::OptimizeError;
@@ -82,7 +83,8 @@ pub fn optimize_sized(
 /// As of [`optimize`], with the bounds that [`Constraints`] give by place. Every
 /// edge that must stay is an edge of the mesh returned, or several that lay in
 /// a row along one segment are one; vertices on a segment are the doubles
-/// nearest to points of it. No triangle that was changed is larger than allowed.
+/// nearest to points of it. Triangles larger than allowed are divided where that
+/// keeps the bounds; no removal makes one, though repair may.
 ///
 /// # Errors
 ///
@@ -193,6 +195,9 @@ impl<'a> Run<'a> {
     /// alone does not settle often goes with a vertex, and search is cheaper on
     /// the coarser mesh.
     fn all(&mut self) -> Result<(), Stop> {
+        if self.rules.limits_areas() {
+            self.round(divide_large)?;
+        }
         match self.passes() {
             0 => self.move_all()?,
             passes => self.decimate(0, passes)?,
@@ -220,7 +225,8 @@ impl<'a> Run<'a> {
 
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        let once = repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
+        let areas = usize::from(self.rules.limits_areas());
+        let once = areas + repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
         match self.options.effort {
             Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),
             Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),

@@ -12,7 +12,7 @@ use crate::refill::{Corner, MAX_CORNERS};
 use crate::work::Work;
 
 /// Rounds of shakes.
-pub(crate) const SHAKES: usize = 90;
+pub(crate) const SHAKES: usize = 110;
 
 /// Shakes tried in one round for each vertex.
 const SHARE: f64 = 0.5;

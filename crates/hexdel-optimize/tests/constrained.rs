@@ -183,3 +183,37 @@ fn constraints_that_do_not_fit_are_named() {
     });
     assert!(matches!(misplaced, OptimizeError::Misplaced { .. }), "{misplaced}");
 }
+
+fn out_of_bounds(mesh: &TriMesh, least: f64) -> usize {
+    let out = |t: &&[VertexId; 3]| {
+        let angles = quality::angles_deg(t.map(|v| mesh.vertices[v.index()]));
+        !angles.iter().all(|a| (least - 1e-9..=90.0 + 1e-9).contains(a))
+    };
+    mesh.triangles.iter().filter(out).count()
+}
+
+#[test]
+fn no_effort_leaves_more_triangles_out_of_bounds_than_it_found() {
+    for shift in 1..=12 {
+        let mut before = start();
+        // A pair of points that leaves no room for good angles.
+        let pair = [5, 6].map(|x| VertexId::new(x + 13 * (SIDE + 1)));
+        for v in pair {
+            before.kinds[v.index()] = VertexKind::Fixed;
+        }
+        before.constraints.near = bounds(42.0);
+        before.mesh.vertices[pair[0].index()].x += 0.01 * f64::from(shift);
+        let found = out_of_bounds(&before.mesh, 42.0);
+        for effort in [Effort::Repair, Effort::Fast, Effort::Standard] {
+            let options = Options::new(bounds(42.0), effort);
+            let mesh = before.mesh.clone();
+            let made = optimize_constrained(mesh, &before.kinds, &before.constraints, &options, &Unwatched);
+            let left = match made {
+                Ok(made) => out_of_bounds(&made.mesh, 42.0),
+                Err(OptimizeError::Unreached { best, .. }) => out_of_bounds(&best.mesh, 42.0),
+                Err(error) => panic!("{error}"),
+            };
+            assert!(left <= found, "{shift} {effort:?}: {left} of {found}");
+        }
+    }
+}

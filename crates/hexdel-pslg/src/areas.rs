@@ -1,15 +1,15 @@
 //! Limits on the area of triangles, everywhere and by region.
 
-use crate::carve::{flood, reached};
-use crate::net::insert::Place;
-use crate::net::{NONE, Net};
+use crate::carve::reached;
+use crate::locator::Locator;
+use crate::net::Net;
 use crate::validate::Validated;
 use hexdel_geom::{Circle, DVec2};
 
 /// By triangle of the input's plane: the largest area allowed, infinite where
 /// there is no limit.
 pub(crate) struct AreaLimits<'a> {
-    plane: &'a Net,
+    plane: Locator<'a>,
     by_triangle: Vec<f64>,
     /// Where there are limits at all.
     circle: Circle,
@@ -28,24 +28,12 @@ impl<'a> AreaLimits<'a> {
         if everywhere.is_none() && regions.iter().all(|r| r.max_area.is_none()) {
             return None;
         }
-        let plane = &input.plane;
-        let mut by_triangle = vec![f64::INFINITY; plane.tri_count() as usize];
-        let mut seen = vec![false; by_triangle.len()];
-        for region in regions {
-            let Some(t) = plane.part_at(region.point, NONE) else { continue };
-            flood(plane, vec![t], |t| {
-                if let Some(area) = region.max_area
-                    && !seen[t as usize]
-                {
-                    by_triangle[t as usize] = area;
-                }
-                !std::mem::replace(&mut seen[t as usize], true)
-            });
-        }
-        for limit in &mut by_triangle {
-            *limit = limit.min(everywhere.unwrap_or(f64::INFINITY));
-        }
-        for (limit, doomed) in by_triangle.iter_mut().zip(reached(plane, &input.pslg.holes, inside)) {
+        let plane = Locator::of(input);
+        let everywhere = everywhere.unwrap_or(f64::INFINITY);
+        let limit_of = |region: Option<u32>| region.and_then(|r| regions[r as usize].max_area);
+        let limit = |region| limit_of(region).map_or(everywhere, |limit| limit.min(everywhere));
+        let mut by_triangle: Vec<f64> = plane.regions(input).into_iter().map(limit).collect();
+        for (limit, doomed) in by_triangle.iter_mut().zip(reached(&input.plane, &input.pslg.holes, inside)) {
             if doomed {
                 *limit = f64::INFINITY;
             }
@@ -56,11 +44,14 @@ impl<'a> AreaLimits<'a> {
     /// The triangles of a mesh that are larger than allowed where their
     /// centroids lie.
     pub(crate) fn exceeded(&self, net: &Net) -> Vec<u32> {
-        let large = |&t: &u32| {
-            let [a, b, c] = net.corners(t);
-            0.5 * (b - a).perp_dot(c - a) > self.at((a + b + c) / 3.0)
-        };
-        net.alive().filter(large).collect()
+        net.alive().filter(|&t| self.excess(net.corners(t)).is_some()).collect()
+    }
+
+    /// The area of a triangle and the limit where its centroid lies, if it is
+    /// larger than that.
+    pub(crate) fn excess(&self, [a, b, c]: [DVec2; 3]) -> Option<[f64; 2]> {
+        let (area, limit) = (0.5 * (b - a).perp_dot(c - a), self.at((a + b + c) / 3.0));
+        (area > limit).then_some([area, limit])
     }
 
     /// The limit at a place.
@@ -68,10 +59,6 @@ impl<'a> AreaLimits<'a> {
         if p.distance(self.circle.center) > self.circle.radius {
             return f64::INFINITY;
         }
-        match self.plane.locate(p, NONE) {
-            Place::Inside(t) | Place::Edge(t, _) => self.by_triangle[t as usize],
-            Place::Vertex(v) => self.by_triangle[self.plane.some_triangle(v) as usize],
-            Place::Outside => f64::INFINITY,
-        }
+        self.plane.triangle_at(p).map_or(f64::INFINITY, |t| self.by_triangle[t as usize])
     }
 }

@@ -5,14 +5,15 @@
 //! constraints, and a net again.
 
 use crate::areas::AreaLimits;
+use crate::error::PslgError;
 use crate::fit::count_rings;
 use crate::fit::judge::Judge;
 use crate::geometry::fraction;
 use crate::net::{Kind, NONE, Net};
 use crate::options::Deadline;
-use crate::sectors::{Sector, sector_near, wedge_pairs};
+use crate::sectors::Sectors;
 use crate::validate::Piece;
-use hexdel_geom::{Cancelled, DVec2, Monitor, TriMesh, VertexId};
+use hexdel_geom::{DVec2, Monitor, TriMesh, VertexId};
 use hexdel_optimize::{
     Constraints, Effort, OptimizeError, Optimized, Options, VertexKind, kinds_of, optimize_constrained,
 };
@@ -21,8 +22,7 @@ use rustc_hash::FxHashMap;
 /// What the mesh must keep.
 pub(crate) struct Kept<'a> {
     pub(crate) pieces: &'a [Piece],
-    pub(crate) sectors: &'a [Sector],
-    pub(crate) sites: &'a [DVec2],
+    pub(crate) sectors: &'a Sectors,
     pub(crate) judge: Judge<'a>,
     pub(crate) areas: Option<&'a AreaLimits<'a>>,
     /// Whether right angles near segments are to go, too.
@@ -37,19 +37,17 @@ pub(crate) fn compact(
     kept: &Kept<'_>,
     effort: Effort,
     monitor: &dyn Monitor,
-) -> Result<Net, Cancelled> {
+) -> Result<Net, PslgError> {
     let taken = Taken::of(&net);
     let limit = |p: DVec2| kept.areas.map_or(f64::INFINITY, |areas| areas.at(p));
-    let hopeless = |corners: [DVec2; 3]| {
-        sector_near(corners, kept.sectors, kept.sites).is_some_and(|(s, _)| s.is_hopeless())
-    };
+    let hopeless = |corners: [DVec2; 3]| kept.sectors.near(corners).is_some_and(|(s, _)| s.is_hopeless());
     let constraints = Constraints {
         segments: net.lines.clone(),
         edges: taken.edges.clone(),
         points: taken.sites(),
         near: kept.judge.near,
         strict: kept.strict,
-        wedges: wedge_pairs(kept.sectors).iter().map(|pair| pair.map(|p| p as usize)).collect(),
+        wedges: kept.sectors.wedge_pairs().iter().map(|pair| pair.map(|p| p as usize)).collect(),
         hopeless: Some(&hopeless),
         max_area: kept.areas.map(|_| &limit as _),
     };
@@ -59,12 +57,9 @@ pub(crate) fn compact(
     let made = match optimize_constrained(mesh, &taken.vertex_kinds(), &constraints, &options, monitor) {
         Ok(made) => made,
         Err(OptimizeError::Unreached { best, .. }) => *best,
-        Err(OptimizeError::Cancelled(c)) => return Err(c),
+        Err(OptimizeError::Cancelled(c)) => return Err(c.into()),
         // Nothing else is refused of a net that keeps its invariants.
-        Err(error) => {
-            debug_assert!(false, "{error}");
-            return Ok(net);
-        }
+        Err(error) => return Err(PslgError::Refused(Box::new(error))),
     };
     if !made.finished {
         kept.deadline.spend();

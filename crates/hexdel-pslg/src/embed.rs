@@ -10,7 +10,6 @@ use crate::error::PslgError;
 use crate::fans::{self, Scene};
 use crate::field::Field;
 use crate::geometry::distance_sq;
-use crate::net::trace::Trace;
 use crate::net::{Kind, NONE, Net};
 use crate::validate::{Piece, spatial_order};
 use hexdel_geom::DVec2;
@@ -152,29 +151,11 @@ impl Embedder {
         for (i, piece) in pieces.iter().enumerate() {
             let chain = std::mem::take(&mut self.chains[i]);
             for pair in chain.windows(2) {
-                self.link(pair[0], pair[1], i as u32)
-                    .map_err(|at| PslgError::NotRecovered { segment: piece.segment as usize, at })?;
+                let linked = self.net.link(pair[0], pair[1], i as u32);
+                linked.map_err(|at| PslgError::NotRecovered { item: piece.feature(), at })?;
             }
         }
         Ok(())
-    }
-
-    fn link(&mut self, a: u32, b: u32, piece: u32) -> Result<(), DVec2> {
-        // Each round takes out a vertex that lies on the link.
-        for _ in 0..16 {
-            match self.net.trace(a, b) {
-                Trace::Vertex { vertex, crossed } if vertex == b => {
-                    let done = self.net.recover(a, b, crossed, piece);
-                    return if done { Ok(()) } else { Err(self.net.at(a)) };
-                }
-                Trace::Vertex { vertex, .. }
-                    if self.net.vertex(vertex).kind == Kind::Free && self.net.remove(vertex) => {}
-                Trace::Vertex { vertex, .. } => return Err(self.net.at(vertex)),
-                Trace::Blocked([p, q]) => return Err(self.net.at(p).midpoint(self.net.at(q))),
-                Trace::Lost => return Err(self.net.at(a)),
-            }
-        }
-        Err(self.net.at(a))
     }
 }
 

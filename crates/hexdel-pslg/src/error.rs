@@ -1,6 +1,7 @@
 //! Why a graph is no input, and why one could not be meshed.
 
 use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, PslgLayoutError};
+use hexdel_optimize::OptimizeError;
 use thiserror::Error;
 
 /// Why a graph is no planar straight-line graph.
@@ -134,13 +135,16 @@ pub enum PslgError {
         area: f64,
     },
     /// A segment could not be made a union of edges within the budget.
-    #[error("segment {segment} could not be recovered near ({}, {})", at.x, at.y)]
+    #[error("{item} could not be recovered near ({}, {})", at.x, at.y)]
     NotRecovered {
-        /// Its index.
-        segment: usize,
+        /// The segment, or the hull that it is an edge of.
+        item: Feature,
         /// Where.
         at: DVec2,
     },
+    /// The optimiser refused the mesh it was given: a defect of the library.
+    #[error("the optimiser refused the mesh: {0}")]
+    Refused(Box<OptimizeError>),
     /// The monitor asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -14,7 +14,7 @@ use crate::options::{Deadline, Extent, Options, SegmentMethod};
 use crate::output::{self, Parts};
 use crate::paper;
 use crate::result::PslgMesh;
-use crate::sectors::{Sector, narrow_sectors, sector_near, wedges};
+use crate::sectors::Sectors;
 use crate::sizing::{Demand, Features, lattice_for, refine};
 use crate::validate::Validated;
 use hexdel_classify::{Domain, DualError, Relocation, extract};
@@ -91,13 +91,13 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
     let mut left = mesher.left(&best);
     while !left.elsewhere.is_empty() && retries < options.retries && !mesher.deadline.is_over() {
         demands.extend(left.elsewhere.iter().map(|&t| demand_at(&best, t)));
-        retries += 1;
-        // A retry may be refused for want of room: then what there is is the best.
-        let net = match mesher.attempt(&demands, monitor) {
-            Ok(net) => mesher.compacted(net, monitor)?,
+        let net = match mesher.attempt(&demands, monitor).and_then(|net| mesher.compacted(net, monitor)) {
+            Ok(net) => net,
             Err(PslgError::Cancelled(c)) => return Err(c.into()),
+            // There is no finer mesh; the one that was to become better stays.
             Err(_) => break,
         };
+        retries += 1;
         let now = mesher.left(&net);
         // What one more level has not helped is not for the next to help.
         if now.score() >= left.score() {
@@ -141,7 +141,7 @@ struct Mesher<'a> {
     /// Radius of the disc that the domain must hold.
     reach: f64,
     scene: Scene,
-    sectors: Vec<Sector>,
+    sectors: Sectors,
     wedges: Wedges,
     areas: Option<AreaLimits<'a>>,
     deadline: Deadline,
@@ -155,8 +155,8 @@ impl<'a> Mesher<'a> {
         let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
         let area = |p: DVec2| areas.as_ref().map_or(f64::INFINITY, |areas| areas.at(p));
         let scene = with_fans(input, pieces, options.near, &area);
-        let sectors = narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
-        let wedges = wedges(&sectors, &scene.pieces);
+        let sectors = Sectors::of(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
+        let wedges = sectors.wedges(&scene.pieces);
         let reach = scene.sites.iter().map(|p| p.distance(circle.center)).fold(circle.radius, f64::max);
         Self {
             input,
@@ -181,19 +181,14 @@ impl<'a> Mesher<'a> {
 
     /// Whether a triangle lies where no mesh could keep the bounds.
     fn is_hopeless(&self, net: &Net, t: u32) -> bool {
-        sector_near(net.corners(t), &self.sectors, self.sites()).is_some_and(|(s, _)| s.is_hopeless())
-    }
-
-    /// The triangles larger than allowed where their centroids lie.
-    fn too_large(&self, net: &Net) -> Vec<u32> {
-        self.areas.as_ref().map_or_else(Vec::new, |areas| areas.exceeded(net))
+        self.sectors.near(net.corners(t)).is_some_and(|(s, _)| s.is_hopeless())
     }
 
     fn left(&self, net: &Net) -> Left {
         let bad: Vec<u32> = net.alive().filter(|&t| self.judge().is_out(net, t)).collect();
         let (hopeless, mut elsewhere): (Vec<u32>, Vec<u32>) =
             bad.iter().partition(|&&t| self.is_hopeless(net, t));
-        elsewhere.extend(self.too_large(net));
+        elsewhere.extend(self.areas.iter().flat_map(|areas| areas.exceeded(net)));
         Left { hopeless: hopeless.len(), elsewhere }
     }
 
@@ -205,14 +200,13 @@ impl<'a> Mesher<'a> {
             None if self.left(&net).elsewhere.is_empty() => return Ok(net),
             None => Effort::Repair,
         };
-        Ok(compact(net, &self.kept(false), effort, monitor)?)
+        compact(net, &self.kept(false), effort, monitor)
     }
 
     fn kept(&self, strict: bool) -> Kept<'_> {
         Kept {
             pieces: &self.scene.pieces,
             sectors: &self.sectors,
-            sites: self.sites(),
             judge: self.judge(),
             areas: self.areas.as_ref(),
             strict,
@@ -230,6 +224,7 @@ impl<'a> Mesher<'a> {
             judge: self.judge(),
             method: self.options.method,
             deadline: &self.deadline,
+            areas: self.areas.as_ref(),
         };
         let made = output::finish(net.clone(), &parts, retries, monitor)?;
         if made.certificate.delaunay || !made.failed.is_empty() || made.budget_spent {

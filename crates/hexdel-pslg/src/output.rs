@@ -1,15 +1,16 @@
 //! The finished mesh: compact arrays, markers, regions, and what it keeps.
 
-use crate::carve::flood;
+use crate::areas::AreaLimits;
 use crate::error::PslgError;
 use crate::fans::Scene;
 use crate::fit::count_rings;
 use crate::fit::edits::parameter;
 use crate::fit::judge::{FAR_RING, Judge, is_sector};
+use crate::locator::Locator;
 use crate::net::{Kind, NONE, Net};
 use crate::options::{Deadline, SegmentMethod};
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
-use crate::sectors::{Sector, sector_near};
+use crate::sectors::Sectors;
 use crate::validate::Validated;
 use hexdel_geom::delaunay::restore_constrained_delaunay;
 use hexdel_geom::monitor::{Monitor, check};
@@ -17,16 +18,17 @@ use hexdel_geom::{
     AngleBounds, CertifyOptions, DVec2, Pslg, TriMesh, TriangleId, VertexId, certify, quality,
     settle_rounding,
 };
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What the mesh was made of.
 pub(crate) struct Parts<'a> {
     pub(crate) input: &'a Validated,
     pub(crate) scene: &'a Scene,
-    pub(crate) sectors: &'a [Sector],
+    pub(crate) sectors: &'a Sectors,
     pub(crate) judge: Judge<'a>,
     pub(crate) method: SegmentMethod,
     pub(crate) deadline: &'a Deadline,
+    pub(crate) areas: Option<&'a AreaLimits<'a>>,
 }
 
 /// Makes the result.
@@ -69,7 +71,7 @@ pub(crate) fn finish(
     Ok(PslgMesh {
         certificate: certify(&mesh, &options),
         vertex_markers: vertex_markers(&parts.input.pslg, &edges, &point_of_vertex),
-        region_of_triangle: regions(&net, parts.input, &numbers),
+        region_of_triangle: regions(&net, parts.input),
         mesh,
         vertex_of_point,
         point_of_vertex,
@@ -105,6 +107,22 @@ fn settle(
             net.move_to(v, at, net.vertex(v).kind);
         }
     }
+    adopt_flips(net, mesh, numbers);
+    count_rings(net);
+}
+
+/// Makes the flips of the mesh in the net that it came of, triangle by triangle
+/// the same.
+fn adopt_flips(net: &mut Net, mesh: &TriMesh, numbers: &Numbers) {
+    let corners = |net: &Net, t: u32| net.tri(t).v.map(|v| numbers.vertex(v));
+    let changed = |&(t, new): &(u32, &[VertexId; 3])| corners(net, t) != *new;
+    let changed: Vec<(u32, &[VertexId; 3])> = net.alive().zip(&mesh.triangles).filter(changed).collect();
+    // Of the copies of a site, the one that these triangles have.
+    let own: FxHashMap<VertexId, u32> =
+        changed.iter().flat_map(|&(t, _)| net.tri(t).v).map(|v| (numbers.vertex(v), v)).collect();
+    let (old, new): (Vec<u32>, Vec<[u32; 3]>) =
+        changed.into_iter().map(|(t, new)| (t, new.map(|v| own[&v]))).unzip();
+    net.replace(&old, &new, |_, _| NONE);
 }
 
 fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {
@@ -236,23 +254,24 @@ pub fn vertex_markers(pslg: &Pslg, edges: &[SegmentEdge], point_of_vertex: &[Opt
 
 /// The region that each triangle lies in; of two in the same part of the plane
 /// the first.
-fn regions(net: &Net, input: &Validated, numbers: &Numbers) -> Vec<Option<u32>> {
-    let mut regions = vec![None; net.alive().count()];
-    for (i, region) in input.pslg.regions.iter().enumerate() {
-        let Some(start) = net.part_at(region.point, NONE) else { continue };
-        flood(net, vec![start], |t| {
-            let region = &mut regions[numbers.triangle[t as usize] as usize];
-            region.is_none() && {
-                *region = Some(i as u32);
-                true
-            }
-        });
+fn regions(net: &Net, input: &Validated) -> Vec<Option<u32>> {
+    if input.pslg.regions.is_empty() {
+        return vec![None; net.alive().count()];
     }
-    regions
+    let plane = Locator::of(input);
+    let regions = plane.regions(input);
+    let [min, max] = [0, 2].map(|corner| input.plane.at(corner));
+    let region_at = |t: u32| {
+        let [a, b, c] = net.corners(t);
+        // What lies beyond the plane's rectangle is one with what is at its rim.
+        let centroid = ((a + b + c) / 3.0).clamp(min, max);
+        plane.triangle_at(centroid).and_then(|t| regions[t as usize])
+    };
+    net.alive().map(region_at).collect()
 }
 
 /// The triangles that do not keep their bounds: those that a corner of the
-/// input excuses, and the others.
+/// input excuses, and the others, with those larger than allowed.
 fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception>, Vec<Exception>) {
     let least = parts.judge.near.min_deg();
     let entry = |t: u32, reason: Reason| {
@@ -271,7 +290,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         if parts.method == SegmentMethod::Paper && is_near() {
             return entry(t, Reason::Template);
         }
-        let near = sector_near(net.corners(t), parts.sectors, &parts.scene.sites);
+        let near = parts.sectors.near(net.corners(t));
         let reason = near.map_or(Reason::Unsolved, |(sector, distance)| Reason::NearSector {
             point: point(sector.site),
             angle_deg: sector.angle_deg,
@@ -279,9 +298,16 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         });
         entry(t, reason)
     });
-    let failed: Vec<Exception> = failed.collect();
+    let mut failed: Vec<Exception> = failed.collect();
+    let large: FxHashSet<u32> = parts.areas.iter().flat_map(|areas| areas.exceeded(net)).collect();
+    failed.extend(net.alive().filter(|t| large.contains(t) && !parts.judge.is_out(net, *t)).filter_map(
+        |t| {
+            let [area, limit] = parts.areas?.excess(net.corners(t))?;
+            Some(entry(t, Reason::TooLarge { area, limit }))
+        },
+    ));
     let narrow = |t: u32| {
-        let (sector, _) = sector_near(net.corners(t), parts.sectors, &parts.scene.sites)?;
+        let (sector, _) = parts.sectors.near(net.corners(t))?;
         Some(Reason::Sector { point: point(sector.site), angle_deg: sector.angle_deg })
     };
     let sector = |t: u32| {
@@ -297,7 +323,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     };
     let exempt = net
         .alive()
-        .filter(|&t| !parts.judge.is_out(net, t))
+        .filter(|&t| !parts.judge.is_out(net, t) && !large.contains(&t))
         .filter_map(|t| sector(t).map(|reason| entry(t, reason)))
         .collect();
     (exempt, failed)

@@ -27,7 +27,7 @@ pub struct PslgMesh {
     /// Triangles that keep their bounds but for the angle between two segments
     /// that meet in an input point.
     pub exempt: Vec<Exception>,
-    /// Triangles that do not keep their bounds.
+    /// Triangles that do not keep their bounds, or are larger than allowed.
     pub failed: Vec<Exception>,
     /// What the mesh keeps, held against the bounds near segments. Exempt and
     /// failed triangles are counted as out of bounds in it.
@@ -54,7 +54,7 @@ pub struct SegmentEdge {
     pub boundary: bool,
 }
 
-/// A triangle that does not keep its bounds, and why.
+/// A triangle that does not keep its bounds, or is too large, and why.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exception {
     /// The triangle.
@@ -90,6 +90,13 @@ pub enum Reason {
     },
     /// The optimiser found no way.
     Unsolved,
+    /// Its angles are within the bounds, but it is larger than allowed.
+    TooLarge {
+        /// Its area, square input units.
+        area: f64,
+        /// The largest area allowed where its centroid lies.
+        limit: f64,
+    },
     /// Near a segment or a point on one, where the paper's templates promise no
     /// bounds.
     Template,
@@ -103,17 +110,16 @@ impl PslgMesh {
     /// that failed for [`Reason::Template`] do not count, nor does the Delaunay
     /// property. All else does.
     pub fn holds(&self) -> bool {
-        let c = &self.certificate;
-        let promised = match self.method {
-            SegmentMethod::Conform => self.failed.is_empty() && c.delaunay,
-            SegmentMethod::Paper => self.failed.iter().all(|f| f.reason == Reason::Template),
-        };
-        promised
-            && c.not_counter_clockwise == 0
-            && c.malformed == 0
-            && c.not_finite == 0
-            && c.repeated_edges == 0
-            && c.unused_vertices == 0
-            && c.inputs_kept == c.inputs
+        holds(self.method, &self.certificate, &self.failed)
     }
+}
+
+/// As [`PslgMesh::holds`], of a mesh by parts.
+pub fn holds(method: SegmentMethod, c: &Certificate, failed: &[Exception]) -> bool {
+    let promised = match method {
+        SegmentMethod::Conform => failed.is_empty() && c.delaunay,
+        SegmentMethod::Paper => failed.iter().all(|f| f.reason == Reason::Template),
+    };
+    let broken = c.not_counter_clockwise + c.malformed + c.not_finite + c.repeated_edges + c.unused_vertices;
+    promised && broken == 0 && c.inputs_kept == c.inputs
 }

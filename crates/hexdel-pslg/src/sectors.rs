@@ -3,9 +3,11 @@
 use crate::fans::{Fan, LEAST_DEG, NARROW_DEG, Scene};
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
-use crate::validate::{Piece, Validated};
+use crate::validate::{Piece, Validated, spatial_order};
 use hexdel_geom::{DVec2, quality};
+use rustc_hash::FxHashSet;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// A corner between two neighbouring pieces at a site.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +17,10 @@ pub(crate) struct Sector {
     pub(crate) pieces: [u32; 2],
     /// Less than the bound.
     pub(crate) angle_deg: f64,
+    /// The sine of the angle.
+    sine: f64,
+    /// Where the site is.
+    corner: DVec2,
     /// The bisector, as long as the longer side.
     bisector: DVec2,
     /// Whether there is a fan around the site.
@@ -26,7 +32,28 @@ impl Sector {
     pub(crate) fn is_hopeless(&self) -> bool {
         self.angle_deg < NARROW_DEG && !self.fanned
     }
+
+    /// Whether its fault may have spread to a triangle with such a centroid and
+    /// longest edge.
+    fn may_be_blamed(&self, centre: DVec2, longest: f64) -> bool {
+        let narrow = longest / self.sine;
+        let end = self.corner + self.bisector * (narrow / self.bisector.length()).min(1.0);
+        distance_sq(centre, self.corner, end) <= (SPREAD * longest).powi(2)
+    }
 }
+
+/// The corners of the input that are narrower than the bound, to be found by
+/// place.
+pub(crate) struct Sectors {
+    all: Vec<Sector>,
+    /// Indices of sectors, neighbours together.
+    order: Vec<u32>,
+    /// The boxes around corners and bisectors in a binary tree over `order`: the
+    /// root first, the halves of node `i` at `2 i + 1` and `2 i + 2`.
+    boxes: Vec<[DVec2; 2]>,
+}
+
+const EMPTY: [DVec2; 2] = [DVec2::INFINITY, DVec2::NEG_INFINITY];
 
 /// Pairs of segments, given by their ends, that meet at so small an angle that no
 /// mesh could keep bounds between them. No two may cross.
@@ -39,8 +66,8 @@ pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
     let piece =
         |(ends, segment): (&[DVec2; 2], u32)| Piece { ends: [site(&ends[0]), site(&ends[1])], segment };
     let pieces: Vec<Piece> = segments.iter().zip(0..).map(piece).collect();
-    let sectors = narrow_sectors(&sites, &pieces, &[], NARROW_DEG);
-    wedge_pairs(&sectors).into_iter().map(|pair| pair.map(|p| p as usize)).collect()
+    let sectors = Sectors::of(&sites, &pieces, &[], NARROW_DEG);
+    sectors.wedge_pairs().into_iter().map(|pair| pair.map(|p| p as usize)).collect()
 }
 
 /// A corner of a graph between two segments that meet at less than a bound.
@@ -87,18 +114,8 @@ pub fn narrow_corners(input: &Validated, least_deg: f64) -> Vec<NarrowCorner> {
     narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, least_deg).iter().map(corner).collect()
 }
 
-/// The pieces on both sides of each sector that is given up.
-pub(crate) fn wedge_pairs(sectors: &[Sector]) -> Vec<[u32; 2]> {
-    sectors.iter().filter(|s| s.is_hopeless()).map(|s| s.pieces).collect()
-}
-
-/// The sectors that are given up.
-pub(crate) fn wedges(sectors: &[Sector], pieces: &[Piece]) -> Wedges {
-    Wedges::of(&wedge_pairs(sectors), pieces.iter().map(|p| p.ends).collect())
-}
-
 /// All sectors narrower than `least_deg`.
-pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Vec<Sector> {
+fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Vec<Sector> {
     let mut rays: Vec<(u32, f64, u32)> = pieces
         .iter()
         .zip(0..)
@@ -112,6 +129,7 @@ pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], le
         })
         .collect();
     rays.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let fanned: FxHashSet<u32> = fans.iter().map(|fan| fan.site).collect();
     let mut sectors = Vec::new();
     for group in rays.chunk_by(|a, b| a.0 == b.0) {
         if group.len() < 2 {
@@ -121,26 +139,31 @@ pub(crate) fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], le
             let next = group[(i + 1) % group.len()];
             let angle_deg = (next.1 - ray.1).rem_euclid(TAU).to_degrees();
             if angle_deg < least_deg {
-                sectors.push(Sector {
-                    site: ray.0,
-                    pieces: [ray.2, next.2],
-                    angle_deg,
-                    fanned: fans.iter().any(|fan| fan.site == ray.0),
-                    bisector: bisector(sites, pieces, ray.0, [ray.2, next.2]),
-                });
+                let fanned = fanned.contains(&ray.0);
+                sectors.push(Sector { fanned, ..sector(sites, pieces, (ray.0, [ray.2, next.2]), angle_deg) });
             }
         }
     }
     sectors
 }
 
-fn bisector(sites: &[DVec2], pieces: &[Piece], site: u32, sides: [u32; 2]) -> DVec2 {
-    let sides = sides.map(|p| {
-        let [a, b] = pieces[p as usize].ends;
-        sites[(if a == site { b } else { a }) as usize] - sites[site as usize]
+fn sector(sites: &[DVec2], all: &[Piece], (site, pieces): (u32, [u32; 2]), angle_deg: f64) -> Sector {
+    let corner = sites[site as usize];
+    let sides = pieces.map(|p| {
+        let [a, b] = all[p as usize].ends;
+        sites[(if a == site { b } else { a }) as usize] - corner
     });
-    let direction = sides[0].normalize_or_zero() + sides[1].normalize_or_zero();
-    direction.normalize_or_zero() * sides[0].length().max(sides[1].length())
+    let units = sides.map(DVec2::normalize_or_zero);
+    let longer = sides[0].length().max(sides[1].length());
+    Sector {
+        site,
+        pieces,
+        angle_deg,
+        sine: units[0].perp_dot(units[1]),
+        corner,
+        bisector: (units[0] + units[1]).normalize_or_zero() * longer,
+        fanned: false,
+    }
 }
 
 /// The direction of a vector, by the portable arc tangent of the angles.
@@ -152,27 +175,90 @@ pub(crate) fn direction(u: DVec2) -> f64 {
 /// it and two more rings, in which sizes find back to the mesh's own.
 const SPREAD: f64 = 3.0;
 
-/// The sector that may be blamed for a triangle's angles, and how far away its
-/// corner is.
-///
-/// At a distance `r` from the corner the sector is `r sin(angle)` wide; where
-/// that is less than an edge nothing between its sides has good angles.
-pub(crate) fn sector_near(
-    [a, b, c]: [DVec2; 3],
-    sectors: &[Sector],
-    sites: &[DVec2],
-) -> Option<(Sector, f64)> {
-    let centre = (a + b + c) / 3.0;
-    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-    let blamed = |s: &Sector| {
-        let corner = sites[s.site as usize];
-        let narrow = longest / s.angle_deg.to_radians().sin();
-        let end = corner + s.bisector * (narrow / s.bisector.length()).min(1.0);
-        distance_sq(centre, corner, end) <= (SPREAD * longest).powi(2)
-    };
-    sectors
-        .iter()
-        .filter(|s| blamed(s))
-        .map(|s| (*s, sites[s.site as usize].distance(centre)))
-        .min_by(|x, y| x.1.total_cmp(&y.1))
+impl Sectors {
+    /// All sectors narrower than `least_deg`.
+    pub(crate) fn of(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Self {
+        let all = narrow_sectors(sites, pieces, fans, least_deg);
+        let order = spatial_order(&all.iter().map(|s| s.corner).collect::<Vec<_>>());
+        let mut sectors = Self { boxes: vec![EMPTY; 2 * all.len().next_power_of_two()], all, order };
+        if !sectors.all.is_empty() {
+            sectors.enclose(0, 0..sectors.all.len());
+        }
+        sectors
+    }
+
+    /// The pieces on both sides of each sector that is given up.
+    pub(crate) fn wedge_pairs(&self) -> Vec<[u32; 2]> {
+        self.all.iter().filter(|s| s.is_hopeless()).map(|s| s.pieces).collect()
+    }
+
+    /// The sectors that are given up.
+    pub(crate) fn wedges(&self, pieces: &[Piece]) -> Wedges {
+        Wedges::of(&self.wedge_pairs(), pieces.iter().map(|p| p.ends).collect())
+    }
+
+    /// Fills in the boxes of a node, which holds a part of the order, and below.
+    fn enclose(&mut self, node: usize, part: Range<usize>) -> [DVec2; 2] {
+        let own = if part.len() == 1 {
+            let s = &self.all[self.order[part.start] as usize];
+            let end = s.corner + s.bisector;
+            [s.corner.min(end), s.corner.max(end)]
+        } else {
+            let middle = part.start.midpoint(part.end);
+            let first = self.enclose(2 * node + 1, part.start..middle);
+            let second = self.enclose(2 * node + 2, middle..part.end);
+            [first[0].min(second[0]), first[1].max(second[1])]
+        };
+        self.boxes[node] = own;
+        own
+    }
+
+    /// The sector that may be blamed for a triangle's angles, and how far away its
+    /// corner is: the nearest of them.
+    ///
+    /// At a distance `r` from the corner the sector is `r sin(angle)` wide; where
+    /// that is less than an edge nothing between its sides has good angles.
+    ///
+    /// # Complexity
+    ///
+    /// Logarithmic in the number of sectors, for each that may be blamed.
+    pub(crate) fn near(&self, [a, b, c]: [DVec2; 3]) -> Option<(Sector, f64)> {
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let mut search = Search { centre: (a + b + c) / 3.0, longest, best: None };
+        if !self.all.is_empty() {
+            self.search(0, 0..self.all.len(), &mut search);
+        }
+        search.best.map(|(distance, i)| (self.all[i as usize], distance))
+    }
+
+    fn search(&self, node: usize, part: Range<usize>, search: &mut Search) {
+        let [min, max] = self.boxes[node];
+        let nearest = search.centre.clamp(min, max);
+        if nearest.distance(search.centre) > SPREAD * search.longest {
+            return;
+        }
+        if part.len() > 1 {
+            let middle = part.start.midpoint(part.end);
+            self.search(2 * node + 1, part.start..middle, search);
+            self.search(2 * node + 2, middle..part.end, search);
+            return;
+        }
+        let i = self.order[part.start];
+        let sector = &self.all[i as usize];
+        let distance = sector.corner.distance(search.centre);
+        let nearer = search.best.is_none_or(|(d, j)| distance.total_cmp(&d).then(i.cmp(&j)).is_lt());
+        if nearer && sector.may_be_blamed(search.centre, search.longest) {
+            search.best = Some((distance, i));
+        }
+    }
+}
+
+/// What [`Sectors::near`] looks for.
+struct Search {
+    /// The triangle's centroid.
+    centre: DVec2,
+    /// Its longest edge.
+    longest: f64,
+    /// Distance and index of the nearest sector so far.
+    best: Option<(f64, u32)>,
 }

@@ -217,10 +217,7 @@ impl Sizer<'_> {
         let end = rest.partition_point(|&i| i < sites + f.pieces.len() as u32);
         let pieces = &rest[..end];
         let point = |s: u32| Feature::Point(f.input_of_site[s as usize] as usize);
-        let segment = |i: u32| match f.pieces[(i - sites) as usize].segment {
-            crate::net::NONE => Feature::Hull,
-            segment => Feature::Segment(segment as usize),
-        };
+        let segment = |i: u32| f.pieces[(i - sites) as usize].feature();
         let ends = |i: u32| f.pieces[(i - sites) as usize].ends;
         match *points {
             [a, b, ..] => Some([point(a), point(b)]),

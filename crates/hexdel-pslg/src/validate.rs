@@ -7,7 +7,7 @@
 //! repaired here, except that a point exactly on a segment divides it, and that
 //! exact duplicates of a point are one.
 
-use crate::error::ValidateError;
+use crate::error::{Feature, ValidateError};
 use crate::net::trace::Trace;
 use crate::net::{Kind, NONE, Net};
 use hexdel_geom::{DVec2, PointSet, PointsError, Pslg};
@@ -62,6 +62,13 @@ pub struct Divided {
     pub segment: usize,
     /// Index of the point.
     pub point: usize,
+}
+
+impl Piece {
+    /// What of the input it is.
+    pub(crate) fn feature(&self) -> Feature {
+        if self.segment == NONE { Feature::Hull } else { Feature::Segment(self.segment as usize) }
+    }
 }
 
 impl std::fmt::Debug for Validated {

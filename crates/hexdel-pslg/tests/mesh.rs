@@ -2,8 +2,9 @@
 
 mod support;
 
-use hexdel_geom::{DVec2, Pslg, Region, Unwatched};
+use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Region, Unwatched};
 use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, Reason, mesh, repair, validate};
+use std::sync::atomic::{AtomicBool, Ordering};
 use support::{append, chain};
 
 fn made(pslg: &Pslg, options: &Options) -> PslgMesh {
@@ -276,4 +277,64 @@ fn what_coordinates_cannot_resolve_is_an_error() {
     assert_eq!(refused.err(), Some(PslgError::NothingEnclosed));
     let refused = mesh(&validate(&open).unwrap(), &Options::new().max_triangles(100), &Unwatched);
     assert!(matches!(refused, Err(PslgError::TooMany { .. })));
+}
+
+/// A rhombus of 12 degrees in a rectangle.
+fn needle() -> Pslg {
+    let mut pslg = chain(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)], true);
+    let (h, length) = (0.105_104_235_265_676_46, 1.0);
+    append(&mut pslg, &chain(&[(2.0, 3.0), (2.0 + length, 3.0 + h), (7.0, 3.0), (3.0, 3.0 - h)], true));
+    pslg
+}
+
+#[test]
+fn no_triangle_is_larger_than_allowed_and_not_told() {
+    for extent in [Extent::Inside, Extent::Hull] {
+        for limit in [0.05, 0.3] {
+            let made = made(&needle(), &Options::new().extent(extent).max_area(limit));
+            let large: Vec<usize> =
+                (0..made.mesh.triangles.len()).filter(|&t| area(&made, t) > limit).collect();
+            let told = |t: &usize| made.failed.iter().any(|f| f.triangle.index() == *t);
+            assert!(large.iter().all(told), "{extent:?} {limit}: {large:?}");
+            assert!(made.holds(), "{extent:?} {limit}: {:?}", made.failed);
+        }
+    }
+}
+
+/// Stops when the mesh is there and optimisation begins.
+struct UntilOptimised(AtomicBool);
+
+impl Monitor for UntilOptimised {
+    fn progress(&self, phase: Phase, _: u64, _: u64) {
+        self.0.fetch_or(phase == Phase::Optimize, Ordering::Relaxed);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+#[test]
+fn what_is_no_better_does_not_cost_the_mesh() {
+    // Bounds that the tips do not let their surroundings keep.
+    let bounds = AngleBounds::new(43.0, 90.0).unwrap();
+    let valid = validate(&needle()).unwrap();
+    let run = |retries, limit, monitor: &dyn Monitor| {
+        let options = Options::new().extent(Extent::Inside).near(bounds).compact(None);
+        mesh(&valid, &options.retries(retries).max_triangles(limit), monitor)
+    };
+    let (mut little, mut enough) = (1, 200_000);
+    while enough - little > 1 {
+        let limit = (little + enough) / 2;
+        match run(0, limit, &UntilOptimised(AtomicBool::new(false))) {
+            Err(PslgError::Cancelled(_)) => enough = limit,
+            Err(PslgError::TooMany { .. }) => little = limit,
+            Ok(_) => panic!("nothing was optimised"),
+            Err(error) => panic!("{error}"),
+        }
+    }
+    let first = run(0, enough, &Unwatched).unwrap();
+    assert!(!first.failed.is_empty());
+    // Finer hexagons are more than the limit allows.
+    assert_eq!(run(1, enough, &Unwatched).unwrap().mesh, first.mesh);
 }

@@ -34,13 +34,13 @@ pub(crate) fn coarsen(grid: &mut Grid, level: u8, tiles: &[TileId], rules: &Rule
     for &id in tiles {
         let tile = grid.tiles().get(level, id);
         if tile.subdivided & !tile.needed != 0 {
-            colours[colour(tile.first())].push(id);
+            colours[colour(grid.tiles().first(level, id))].push(id);
         }
     }
     let mut changed = Vec::new();
     for tiles in colours {
         let merged: Vec<_> =
-            tiles.into_par_iter().map(|id| Patch::of(grid, level, id).coarsened(rules)).collect();
+            tiles.into_par_iter().map(|id| Tried::new(grid, level, id).coarsened(rules)).collect();
         for (id, subdivided) in merged.into_iter().flatten() {
             let tile = grid.tiles_mut().get_mut(level, id);
             changed.push((id, std::mem::replace(&mut tile.subdivided, subdivided)));
@@ -57,30 +57,96 @@ fn colour(first: Hex) -> usize {
     3 * third(first.r) + third(first.q)
 }
 
-/// Five by five tiles, on which merges are tried.
+/// A tile on which merges are tried.
+struct Tried<'a> {
+    grid: &'a Grid,
+    level: u8,
+    id: TileId,
+    /// The subdivided hexagons of the tile's window, as merged so far.
+    subdivided: Window,
+    /// Those that the next finer level needs.
+    needed: Window,
+    /// Whether all fins near the tile are known to be in a row.
+    regular: Option<bool>,
+    /// The occupied hexagons of both classes, once somebody asks.
+    occupied: Option<[Window; 2]>,
+    /// What lies around: read when a merge is more than unlikely.
+    patch: Option<Patch>,
+}
+
+impl<'a> Tried<'a> {
+    fn new(grid: &'a Grid, level: u8, id: TileId) -> Self {
+        let [subdivided, needed] = grid.tiles().windows(level, id, |tile| [tile.subdivided, tile.needed]);
+        Self { grid, level, id, subdivided, needed, regular: None, occupied: None, patch: None }
+    }
+
+    /// Tries to merge the spare hexagons of the tile, each first together with
+    /// its spare neighbours, then alone. Returns the tiles that changed.
+    fn coarsened(mut self, rules: &RuleSet) -> Vec<(TileId, u64)> {
+        for at in ones(self.subdivided.without(self.needed).centre()).map(hex_of) {
+            let spare = self.subdivided.without(self.needed);
+            if spare.contains(at) {
+                let alone = Window::from_iter([at]);
+                let group = alone.dilated() & spare;
+                // Mostly its own fins alone would already break a rule.
+                let _ = is_regular(self.needed.ring_of(at)) && self.merge(group, rules)
+                    || group != alone && is_regular(self.subdivided.ring_of(at)) && self.merge(alone, rules);
+            }
+        }
+        self.patch.map_or_else(Vec::new, |patch| patch.changed(self.grid, self.level))
+    }
+
+    /// Merges hexagons if every rule still holds afterwards.
+    fn merge(&mut self, group: Window, rules: &RuleSet) -> bool {
+        let rest = self.subdivided.without(group);
+        // The tile itself is the likeliest to object.
+        if !self.is_regular_as(rest, group) || !self.rules_hold_as(rest, rules) {
+            return false;
+        }
+        let patch = self.patch.get_or_insert_with(|| Patch::of(self.grid, self.level, self.id));
+        let legal = patch.merge(group, rules);
+        if legal {
+            self.subdivided = rest;
+        }
+        legal
+    }
+
+    /// Whether no rule would ask for anything in the tile itself.
+    fn rules_hold_as(&mut self, rest: Window, rules: &RuleSet) -> bool {
+        let [occupied1, occupied2] = *self.occupied.get_or_insert_with(|| {
+            let view = View::of(self.grid, self.level, self.id);
+            [view.occupied1, view.occupied2]
+        });
+        let view = View { subdivided: rest, occupied1, occupied2 };
+        view.is_empty() || rules.hold(&Situation::of(view))
+    }
+
+    /// Whether all fins around the tile would be in a row without a group: the
+    /// cheap half of the question, which most tries fail. Asked of the group
+    /// first, then of those that lose fins.
+    fn is_regular_as(&mut self, rest: Window, group: Window) -> bool {
+        let is_regular_at = |at| is_regular(rest.ring_of(at));
+        let all_regular = |set: Window| (irregular(set) & Window::with_margin(2)).is_empty();
+        group.iter().all(is_regular_at)
+            && group.dilated().without(self.subdivided).iter().all(is_regular_at)
+            && (*self.regular.get_or_insert_with(|| all_regular(self.subdivided)) || all_regular(rest))
+    }
+}
+
+/// Five by five tiles.
 struct Patch {
     /// The tiles, row by row; `None` where there is none.
     ids: [Option<TileId>; 25],
     /// Subdivided hexagons of each tile.
     subdivided: [u64; 25],
-    /// Those that the next finer level needs.
-    needed: [u64; 25],
     /// Occupied hexagons of both classes.
     marks: [[u64; 25]; 2],
-    /// The window of the tile in the middle of `subdivided`.
-    centre: Window,
 }
 
 impl Patch {
     fn of(grid: &Grid, level: u8, centre: TileId) -> Self {
         let tiles = grid.tiles();
-        let mut patch = Self {
-            ids: [None; 25],
-            subdivided: [0; 25],
-            needed: [0; 25],
-            marks: [[0; 25]; 2],
-            centre: Window::EMPTY,
-        };
+        let mut patch = Self { ids: [None; 25], subdivided: [0; 25], marks: [[0; 25]; 2] };
         for row in -1..=1 {
             for column in -1..=1 {
                 let Some(inner) = tiles.beside(level, centre, column, row) else {
@@ -96,70 +162,42 @@ impl Patch {
             if let Some(id) = patch.ids[i] {
                 let tile = tiles.get(level, id);
                 patch.subdivided[i] = tile.subdivided;
-                patch.needed[i] = tile.needed;
                 patch.marks[0][i] = tile.marks[0];
                 patch.marks[1][i] = tile.marks[1];
             }
         }
-        patch.centre = Self::window(&patch.subdivided, 0, 0);
         patch
     }
 
-    /// Tries to merge the spare hexagons of the tile in the middle, each first
-    /// together with its spare neighbours, then alone. Returns the tiles that
-    /// changed.
-    fn coarsened(mut self, rules: &RuleSet) -> Vec<(TileId, u64)> {
-        let before = self.subdivided;
-        let needed = Self::window(&self.needed, 0, 0);
-        for at in ones(self.subdivided[12] & !self.needed[12]).map(hex_of) {
-            let spare = self.centre.without(needed);
-            if spare.contains(at) {
-                let alone = Window::from_iter([at]);
-                let group = alone.dilated() & spare;
-                // Mostly its own fins alone would already break a rule.
-                let _ = is_regular(needed.ring_of(at)) && self.merge(group, rules)
-                    || group != alone && is_regular(self.centre.ring_of(at)) && self.merge(alone, rules);
-            }
-        }
-        (0..25)
-            .filter(|&i| self.subdivided[i] != before[i])
-            .filter_map(|i| Some((self.ids[i]?, self.subdivided[i])))
+    /// The tiles that differ from what the grid holds, and what is subdivided in
+    /// them.
+    fn changed(&self, grid: &Grid, level: u8) -> Vec<(TileId, u64)> {
+        let all = self.ids.into_iter().zip(self.subdivided);
+        all.filter_map(|(id, subdivided)| Some((id?, subdivided)))
+            .filter(|&(id, subdivided)| grid.tiles().get(level, id).subdivided != subdivided)
             .collect()
     }
 
-    /// Merges hexagons if every rule still holds afterwards.
+    /// Merges hexagons if no rule asks for them in the tiles around the middle
+    /// one.
     fn merge(&mut self, group: Window, rules: &RuleSet) -> bool {
-        if !self.is_regular_without(group) {
-            return false;
-        }
         let before = self.subdivided;
         for at in group.iter() {
             let (i, bit) = place(at);
             self.subdivided[i] &= !(1 << bit);
         }
         let legal = self.rules_hold(group, rules);
-        if legal {
-            self.centre = self.centre.without(group);
-        } else {
+        if !legal {
             self.subdivided = before;
         }
         legal
     }
 
-    /// Whether all fins around the middle tile would be in a row without a
-    /// group: the cheap half of the question, which most tries fail. Asked of
-    /// the group first.
-    fn is_regular_without(&self, group: Window) -> bool {
-        let rest = self.centre.without(group);
-        group.iter().all(|at| is_regular(rest.ring_of(at)))
-            && (irregular(rest) & Window::with_margin(2)).is_empty()
-    }
-
-    /// Whether no rule asks for anything where it can see the group.
+    /// Whether no rule asks for anything where it can see the group, but for the
+    /// tile in the middle.
     fn rules_hold(&self, group: Window, rules: &RuleSet) -> bool {
-        // The tile in the middle is the likeliest to object.
         let reached = |i: &usize| !(group & seen_from()[*i]).is_empty();
-        [4, 1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(reached).all(|i| {
+        [1, 3, 5, 7, 0, 2, 6, 8].into_iter().filter(reached).all(|i| {
             let (column, row) = (i as i64 % 3 - 1, i as i64 / 3 - 1);
             let view = View {
                 subdivided: Self::window(&self.subdivided, column, row),

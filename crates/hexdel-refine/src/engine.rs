@@ -22,7 +22,7 @@ use crate::coarsen;
 use crate::queue::Queues;
 use crate::rule::{RuleSet, Situation};
 use crate::sites::Sites;
-use hexdel_classify::{Occupant, View};
+use hexdel_classify::{Domain, Dual, DualError, Occupant, Relocation, View, extract};
 use hexdel_geom::DVec2;
 use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
 use hexdel_grid::grid::hex_of;
@@ -134,6 +134,27 @@ impl Refiner {
     /// The points and the leaves they occupy, in the order of adding.
     pub fn occupants(&self) -> Vec<Occupant> {
         self.sites.occupants(self.grid.lattice())
+    }
+
+    /// The mesh of the grid: what [`extract`](hexdel_classify::extract) makes of it and of all
+    /// points, sooner. Points are taken in the order in which memory holds them
+    /// and their tiles; that the rules keep their rings apart makes it the same
+    /// mesh.
+    ///
+    /// # Errors
+    ///
+    /// As [`extract`](hexdel_classify::extract).
+    pub fn extract(
+        &mut self,
+        domain: Domain,
+        relocation: Relocation,
+        monitor: &dyn Monitor,
+    ) -> Result<Dual, DualError> {
+        let occupants = self.sites.occupants_by_id(self.grid.lattice());
+        let mut dual = extract(&mut self.grid, &occupants, domain, relocation, monitor)?;
+        let of_site = dual.vertex_of_occupant;
+        dual.vertex_of_occupant = self.sites.ids().par_iter().map(|&id| of_site[id as usize]).collect();
+        Ok(dual)
     }
 
     /// How many times the rules were asked about a tile so far, or what it
@@ -369,17 +390,22 @@ impl Refiner {
         let mut passed = None;
         for &id in sites {
             let (level, hex) = (self.sites.get(id).level, self.sites.get(id).at.hex);
-            if passed == Some((level, hex)) {
+            if let Some((_, _, tile)) = passed.filter(|&(l, h, _)| (l, h) == (level, hex)) {
+                self.sites.pass(id, tile);
                 self.moving.push(id as usize, [true]);
                 continue;
             }
-            let (tile, bit) = match last.filter(|&(l, _, _)| l == level) {
-                Some((_, near, _)) => self.grid.tiles_mut().require_near(level, near, hex),
-                None => self.grid.tile_of(Address::new(level, hex)),
-            };
+            let tiles = self.grid.tiles_mut();
+            let near = last.filter(|&(l, _, _)| l == level);
+            let near = near.and_then(|(_, near, _)| tiles.require_near(level, near, hex));
+            let (tile, bit) = near.unwrap_or_else(|| match level {
+                0 => tiles.require(0, hex),
+                // It comes from the level above.
+                _ => tiles.require_under(level, self.sites.tile_of(id), hex),
+            });
             let changed = self.occupy(id, (tile, bit));
             if self.grid.tiles().get(level, tile).subdivided >> bit & 1 == 1 {
-                passed = Some((level, hex));
+                passed = Some((level, hex, tile));
             }
             match &mut last {
                 Some((l, t, bits)) if (*l, *t) == (level, tile) => *bits |= changed,
@@ -394,10 +420,12 @@ impl Refiner {
         let level = self.sites.get(site).level;
         let tile = self.grid.tiles().get(level, id);
         if tile.subdivided >> bit & 1 == 1 {
+            self.sites.pass(site, id);
             self.moving.push(site as usize, [true]);
             return 0;
         }
         if (tile.marks[0] | tile.marks[1]) >> bit & 1 == 1 {
+            self.sites.pass(site, id);
             self.moving.push(site as usize, [true]);
             return self.mark_subdivided(level, id, 1 << bit);
         }
@@ -438,7 +466,7 @@ impl Refiner {
 
     fn violation_in(&self, level: u8, id: TileId) -> Option<(Address, &'static str)> {
         let situation = Situation::of(View::of(&self.grid, level, id));
-        let first = self.grid.tiles().get(level, id).first();
+        let first = self.grid.tiles().first(level, id);
         let at = |bit| Address::new(level, first + hex_of(bit));
         self.rules.iter().find_map(|rule| {
             let asked = rule.must_subdivide(&situation).without(situation.view.subdivided).centre();

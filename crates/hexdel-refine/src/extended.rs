@@ -22,6 +22,13 @@ pub static RULES: &[&dyn Rule] = &[
 /// Those of them that ask for occupied hexagons whether they have fins or not.
 pub static ABOUT_POINTS: &[&dyn Rule] = &[&MovedInRing, &OccupiedRings];
 
+/// Whether there is a `MovedCenter3` at most `N` hexagons beyond the tile: where
+/// else one lies does not matter to a rule that looks no farther.
+#[inline]
+fn has_three_finned<const N: i64>(s: &Situation) -> bool {
+    !(s.classes.moved3 & const { Window::with_margin(N) }).is_empty()
+}
+
 /// Subdivide any hexagon of type SUBDIVIDE: its fins are not consecutive, or
 /// more than three.
 pub struct SubdivideClass;
@@ -121,7 +128,7 @@ impl Rule for TopOfTwoRuns {
 
     fn must_subdivide(&self, s: &Situation) -> Window {
         let c = &s.classes;
-        if c.moved3.is_empty() {
+        if !has_three_finned::<1>(s) {
             return Window::EMPTY;
         }
         // Runs start where there is none before; five in a run have one start.
@@ -149,7 +156,7 @@ impl Rule for TopWithFins {
     }
 
     fn must_subdivide(&self, s: &Situation) -> Window {
-        if s.classes.moved3.is_empty() {
+        if !has_three_finned::<0>(s) {
             return Window::EMPTY;
         }
         let finned = s.classes.finned().each_way();
@@ -175,7 +182,7 @@ impl Rule for TwoFinsBesideRun {
 
     fn must_subdivide(&self, s: &Situation) -> Window {
         let c = &s.classes;
-        if c.moved3.is_empty() || c.moved2.is_empty() {
+        if c.moved2.is_empty() || !has_three_finned::<2>(s) {
             return Window::EMPTY;
         }
         let [a, b, c0, d, e, f] = c.with_next();

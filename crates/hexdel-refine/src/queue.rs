@@ -23,13 +23,19 @@ impl<const N: usize> Queues<N> {
     pub(crate) fn push(&mut self, id: usize, to: [bool; N]) {
         let (word, bit) = (id / 64, id % 64);
         if word >= self.words.len() {
-            // As a vector grows: ids are made one by one.
-            self.words.resize((word + 1).next_power_of_two(), [0; N]);
+            self.grow(word);
         }
+        let words = &mut self.words[word];
         for (set, to) in to.into_iter().enumerate() {
-            self.words[word][set] |= u64::from(to) << bit;
+            words[set] |= u64::from(to) << bit;
             self.any[set] |= to;
         }
+    }
+
+    /// As a vector grows: ids are made one by one.
+    #[cold]
+    fn grow(&mut self, word: usize) {
+        self.words.resize((word + 1).next_power_of_two(), [0; N]);
     }
 
     pub(crate) fn is_empty(&self, set: usize) -> bool {

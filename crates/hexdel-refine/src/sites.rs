@@ -49,13 +49,23 @@ pub(crate) struct Sites {
     all: Vec<Site>,
     /// The site id of each point, in the order of adding. A permutation.
     rank: Vec<u32>,
-    /// The tile of each site's hexagon; meaningless while it descends.
-    tile: Vec<TileId>,
-    /// The next site that occupies a hexagon of the same tile, or [`NONE`].
-    next: Vec<u32>,
+    /// The place of each site.
+    places: Vec<Place>,
     /// The first site of each tile, by level and tile id, or [`NONE`]; none
-    /// beyond the end. Together with `next` a list of each tile's occupants.
+    /// beyond the end. Together with `places` a list of each tile's occupants.
     heads: Vec<Vec<u32>>,
+}
+
+/// Where a site is among the tiles: apart from the [`Site`] itself, which is
+/// larger and of which nothing else is asked when it leaves its hexagon.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// The tile of its hexagon; while it descends, of the last one.
+    tile: TileId,
+    /// The hexagon's bit there.
+    bit: u32,
+    /// The next site that occupies a hexagon of the same tile, or [`NONE`].
+    next: u32,
 }
 
 const NONE: u32 = u32::MAX;
@@ -64,12 +74,11 @@ impl Sites {
     /// Adds points, all on level 0. Returns their ids, ascending.
     pub(crate) fn add(&mut self, lattice: &Lattice, points: &[DVec2]) -> Vec<u32> {
         let first = self.all.len();
-        let mut order: Vec<(u64, u32)> =
+        let order =
             points.par_iter().enumerate().map(|(i, &p)| (along_curve(lattice, p), i as u32)).collect();
-        order.par_sort_unstable();
+        let order = sorted_by_key(order);
         self.all.par_extend(order.par_iter().map(|&(_, i)| Site::new(lattice, 0, points[i as usize])));
-        self.next.resize(self.all.len(), NONE);
-        self.tile.resize(self.all.len(), TileId::new(0));
+        self.places.resize(self.all.len(), Place { tile: TileId::new(0), bit: 0, next: NONE });
         self.rank.resize(self.all.len(), NONE);
         for (site, &(_, i)) in (first..).zip(&order) {
             self.rank[first + i as usize] = site as u32;
@@ -79,11 +88,17 @@ impl Sites {
 
     /// The points and the leaves they occupy, in the order of adding.
     pub(crate) fn occupants(&self, lattice: &Lattice) -> Vec<Occupant> {
-        let occupant = |&id: &u32| {
-            let &Site { point, level, .. } = self.get(id);
-            Occupant { level, at: lattice.locate(level, point), tile: self.tile[id as usize], point }
-        };
-        self.rank.par_iter().map(occupant).collect()
+        self.rank.par_iter().map(|&id| self.occupant(lattice, id)).collect()
+    }
+
+    /// The same, by site id.
+    pub(crate) fn occupants_by_id(&self, lattice: &Lattice) -> Vec<Occupant> {
+        (0..self.all.len() as u32).into_par_iter().map(|id| self.occupant(lattice, id)).collect()
+    }
+
+    fn occupant(&self, lattice: &Lattice, id: u32) -> Occupant {
+        let &Site { point, level, .. } = self.get(id);
+        Occupant { level, at: lattice.locate(level, point), tile: self.tile_of(id), point }
     }
 
     #[inline]
@@ -106,17 +121,16 @@ impl Sites {
         &self.rank
     }
 
-    /// The tile that a site was last put into.
+    /// The tile of the hexagon that a site was last put into, or sent on from.
     pub(crate) fn tile_of(&self, id: u32) -> TileId {
-        self.tile[id as usize]
+        self.places[id as usize].tile
     }
 
     /// Forgets the sites from `len` on, which occupy nothing.
     pub(crate) fn truncate(&mut self, len: usize) {
         self.all.truncate(len);
         self.rank.truncate(len);
-        self.tile.truncate(len);
-        self.next.truncate(len);
+        self.places.truncate(len);
     }
 
     /// The sites that occupy hexagons of a tile.
@@ -125,7 +139,7 @@ impl Sites {
         let mut id = heads.copied().unwrap_or(NONE);
         std::iter::from_fn(move || {
             let found = (id != NONE).then_some(id)?;
-            id = self.next[found as usize];
+            id = self.places[found as usize].next;
             Some(found)
         })
     }
@@ -133,7 +147,7 @@ impl Sites {
     /// Notes that a site occupies its hexagon, which is one of `tile`.
     #[inline]
     pub(crate) fn enter(&mut self, id: u32, tile: TileId) {
-        let level = usize::from(self.get(id).level);
+        let (level, bit) = (usize::from(self.get(id).level), bit_of(self.get(id).at.hex));
         if level >= self.heads.len() {
             self.heads.resize(level + 1, Vec::new());
         }
@@ -141,8 +155,14 @@ impl Sites {
         if tile.index() >= heads.len() {
             heads.resize((tile.index() + 1).next_power_of_two(), NONE);
         }
-        self.tile[id as usize] = tile;
-        self.next[id as usize] = std::mem::replace(&mut heads[tile.index()], id);
+        let next = std::mem::replace(&mut heads[tile.index()], id);
+        self.places[id as usize] = Place { tile, bit, next };
+    }
+
+    /// Notes the tile of a site's hexagon, which it does not occupy: it moves on.
+    #[inline]
+    pub(crate) fn pass(&mut self, id: u32, tile: TileId) {
+        self.places[id as usize].tile = tile;
     }
 
     /// Forgets and returns the site that occupies a hexagon.
@@ -151,9 +171,9 @@ impl Sites {
         let head = self.heads.get_mut(usize::from(level))?.get_mut(tile.index())?;
         let (mut before, mut id) = (NONE, *head);
         while id != NONE {
-            let after = self.next[id as usize];
-            if bit_of(self.all[id as usize].at.hex) == bit {
-                *(if before == NONE { head } else { &mut self.next[before as usize] }) = after;
+            let Place { bit: found, next: after, .. } = self.places[id as usize];
+            if found == bit {
+                *(if before == NONE { head } else { &mut self.places[before as usize].next }) = after;
                 return Some(id);
             }
             (before, id) = (id, after);
@@ -179,6 +199,38 @@ fn along_curve(lattice: &Lattice, point: DVec2) -> u64 {
     let q = v.x - 0.5 * r;
     let bits = |x: f64| spread((x + f64::from(1_u32 << 31)) as u32);
     bits(q) | bits(r) << 1
+}
+
+/// Sorts by the first of each pair; equal ones stay in order. Digit by digit, the
+/// lowest first: in a fifth of the time that comparing takes.
+fn sorted_by_key(mut pairs: Vec<(u64, u32)>) -> Vec<(u64, u32)> {
+    const BITS: usize = 11;
+    if pairs.len() < 1 << BITS {
+        pairs.sort_by_key(|&(key, _)| key);
+        return pairs;
+    }
+    let mut sorted = vec![(0, 0); pairs.len()];
+    for shift in (0..u64::BITS).step_by(BITS) {
+        let digit = |key: u64| (key >> shift) as usize % (1 << BITS);
+        let mut places = [0_usize; 1 << BITS];
+        for &(key, _) in &pairs {
+            places[digit(key)] += 1;
+        }
+        if places.contains(&pairs.len()) {
+            continue;
+        }
+        let mut next = 0;
+        for place in &mut places {
+            next += std::mem::replace(place, next);
+        }
+        for &pair in &pairs {
+            let place = &mut places[digit(pair.0)];
+            sorted[*place] = pair;
+            *place += 1;
+        }
+        std::mem::swap(&mut pairs, &mut sorted);
+    }
+    pairs
 }
 
 /// Bit `i` of 32 to bit `2 i`.
@@ -210,6 +262,17 @@ mod tests {
         assert_eq!(back, points);
         for id in 0..50 {
             assert_eq!(points[sites.index_of(id)], sites.get(id).point);
+        }
+    }
+
+    #[test]
+    fn pairs_are_sorted_by_key_and_equal_ones_stay_in_order() {
+        for (count, key) in [(100, u64::MAX), (5000, u64::MAX), (5000, 0xfff0_0000_0f00_00ff), (3000, 0)] {
+            let mixed = |i: u32| (u64::from(i) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let pairs: Vec<_> = (0..count).map(|i| (mixed(i) & key, i)).collect();
+            let mut expected = pairs.clone();
+            expected.sort_unstable();
+            assert_eq!(sorted_by_key(pairs), expected);
         }
     }
 

@@ -99,11 +99,14 @@ impl<'a> Movement<'a> {
     /// Adds the victims of all triangles at pairs along direction `D`.
     #[inline]
     fn judge<const D: usize>(&self, victims: &mut Window) {
-        let pairs = self.foreign::<D>() & Window::with_margin(1);
+        let d = const { Direction::new(D) };
+        // Those of which a corner lies in the tile.
+        let tile = const { Window::with_margin(0) };
+        let near = tile | tile.at(d) | tile.at(d.turned(1)) | tile.at(d.turned(5));
+        let pairs = self.foreign::<D>() & near;
         if pairs.is_empty() {
             return;
         }
-        let d = const { Direction::new(D) };
         let step = |by: usize| d.turned(by).step();
         for a in pairs.iter() {
             let b = a + step(0);

@@ -21,8 +21,8 @@ fn refined(points: &[DVec2]) -> Refiner {
 /// What differs between grids: all but empty tiles.
 fn planes(grid: &Grid) -> Vec<(u8, Hex, u64, u64, [u64; 2])> {
     let of = |level: u8| {
-        let all = grid.tiles().level(level).iter();
-        all.map(move |t| (level, t.first(), t.subdivided, t.needed, t.marks))
+        let all = grid.tiles().placed(level);
+        all.map(move |(first, t)| (level, first, t.subdivided, t.needed, t.marks))
     };
     let mut all: Vec<_> = (0..grid.tiles().levels() as u8).flat_map(of).collect();
     all.retain(|t| (t.2, t.3, t.4) != (0, 0, [0; 2]));

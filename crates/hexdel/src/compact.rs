@@ -10,14 +10,25 @@ use hexdel_classify::Dual;
 use hexdel_geom::{AngleBounds, Monitor, Phase, VertexId};
 use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize, optimize_sized};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// What the optimiser is told.
-pub(crate) fn options(bounds: AngleBounds, effort: Effort, budget: Option<Duration>) -> Options {
-    let options = Options::new(bounds, effort);
-    match budget {
-        Some(budget) => options.with_budget(budget),
-        None => options,
+/// The time that all starts together may be optimised for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Time {
+    left: Option<Duration>,
+}
+
+impl Time {
+    pub(crate) fn new(budget: Option<Duration>) -> Self {
+        Self { left: budget }
+    }
+
+    /// Does work that may take a share of the time that is left.
+    fn spend<T>(&mut self, share: u32, work: impl FnOnce(Option<Duration>) -> T) -> T {
+        let began = Instant::now();
+        let done = work(self.left.map(|left| left / share));
+        self.left = self.left.map(|left| left.saturating_sub(began.elapsed()));
+        done
     }
 }
 
@@ -30,8 +41,39 @@ pub(crate) struct Ended {
     pub(crate) spent: bool,
 }
 
-/// Optimises a mesh of the grid in place.
-pub(crate) fn optimize_dual(
+/// What is asked of the optimiser.
+pub(crate) struct Work<'a> {
+    pub(crate) bounds: AngleBounds,
+    pub(crate) effort: Effort,
+    pub(crate) size: Option<&'a Size>,
+    pub(crate) monitor: &'a dyn Monitor,
+}
+
+impl Work<'_> {
+    /// Optimises a mesh of the grid in place.
+    ///
+    /// A start that must be `repaired` first is brought within the bounds at once where
+    /// time is limited, in half of it, so that the other half is left for a start
+    /// that needs no repair.
+    pub(crate) fn optimize(&self, dual: &mut Dual, repaired: bool, time: &mut Time) -> Result<Ended, Error> {
+        if repaired && time.left.is_some() {
+            let effort = self.effort.min(Effort::Fast);
+            let ended = time.spend(2, |budget| self.run(dual, effort, budget))?;
+            if !ended.reached || effort == self.effort {
+                return Ok(ended);
+            }
+        }
+        time.spend(1, |budget| self.run(dual, self.effort, budget))
+    }
+
+    fn run(&self, dual: &mut Dual, effort: Effort, budget: Option<Duration>) -> Result<Ended, Error> {
+        let options = Options::new(self.bounds, effort);
+        let options = budget.map_or(options, |budget| options.with_budget(budget));
+        optimize_dual(dual, &options, self.size, self.monitor)
+    }
+}
+
+fn optimize_dual(
     dual: &mut Dual,
     options: &Options,
     size: Option<&Size>,

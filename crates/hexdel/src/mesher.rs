@@ -1,13 +1,13 @@
 //! Options, and the one call.
 
-use crate::compact::{self, Again, Ended};
+use crate::compact::{Again, Ended, Time, Work};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
 use crate::size::{Size, SizeError};
 use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
-use hexdel_classify::{Domain, Dual, Relocation, extract};
+use hexdel_classify::{Domain, Dual, Relocation};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
@@ -48,18 +48,22 @@ impl Method {
         }
     }
 
+    /// Whether the method keeps these bounds for every input.
+    fn keeps(self, bounds: AngleBounds) -> bool {
+        let kept = self.bounds();
+        bounds.min_deg() <= kept.min_deg() && bounds.max_deg() >= kept.max_deg()
+    }
+
     /// The ways to a mesh, in the order they are tried.
-    fn links(self, budget: Option<Duration>) -> &'static [Link] {
+    fn links(self) -> &'static [Link] {
         const COARSE: Link = Link { start: Start::Coarse, optimize: true };
         const FINE: Link = Link { start: Start::Templates, optimize: true };
         const TEMPLATES: Link = Link { start: Start::Templates, optimize: false };
         const SIMPLE: Link = Link { start: Start::Simple, optimize: false };
-        match (self, budget) {
-            (Self::Simple, _) => &[SIMPLE],
-            (Self::Templates, _) => &[TEMPLATES],
-            (Self::Compact, None) => &[COARSE, FINE, TEMPLATES],
-            // Valid from the first moment, so that any time is enough.
-            (Self::Compact, Some(_)) => &[FINE, TEMPLATES],
+        match self {
+            Self::Simple => &[SIMPLE],
+            Self::Templates => &[TEMPLATES],
+            Self::Compact => &[COARSE, FINE, TEMPLATES],
         }
     }
 }
@@ -82,6 +86,13 @@ pub enum Start {
 struct Link {
     start: Start,
     optimize: bool,
+}
+
+/// What is meshed, and where.
+struct Input<'a> {
+    points: &'a [DVec2],
+    set: &'a PointSet,
+    placement: &'a Placement,
 }
 
 impl Start {
@@ -378,18 +389,20 @@ impl Mesher {
         self.graph.refuse_for_points()?;
         let kept = self.method.bounds();
         let bounds = self.bounds.unwrap_or(kept);
-        let compact = self.method == Method::Compact;
-        if !compact && (bounds.min_deg() > kept.min_deg() || bounds.max_deg() < kept.max_deg()) {
+        if self.method != Method::Compact && !self.method.keeps(bounds) {
             return Err(Error::BoundsBeyondMethod { asked: bounds, kept });
         }
         let set = PointSet::new(points)?;
         let placement = Placement::around(&set, self.domain_radius, self.centre)?;
         self.check_size(&placement)?;
+        let input = Input { points, set: &set, placement: &placement };
         let mut again = Again::new(monitor);
         let mut best: Option<Error> = None;
-        for link in self.method.links(self.budget) {
-            match self.from(*link, &set, &placement, points, bounds, &again) {
-                Ok(made) => return Ok(made),
+        let mut time = Time::new(self.budget);
+        for link in self.method.links() {
+            match self.from(*link, &input, bounds, &mut time, &again) {
+                Ok(Some(made)) => return Ok(made),
+                Ok(None) => again.restart(),
                 // What one start does not reach, the next one may.
                 Err(
                     error @ (Error::Unreached { .. }
@@ -409,16 +422,16 @@ impl Mesher {
         Err(best.expect("every method has a way to a mesh"))
     }
 
-    /// Makes the mesh from one start.
+    /// Makes the mesh from one start; none if time was up before it was within the
+    /// bounds and another start is so from the beginning.
     fn from(
         &self,
         Link { start, optimize }: Link,
-        set: &PointSet,
-        placement: &Placement,
-        points: &[DVec2],
+        Input { points, set, placement }: &Input<'_>,
         bounds: AngleBounds,
+        time: &mut Time,
         monitor: &dyn Monitor,
-    ) -> Result<Triangulation, Error> {
+    ) -> Result<Option<Triangulation>, Error> {
         let began = Instant::now();
         let mut refiner = Refiner::new(placement.lattice, start.rules(self.effort))
             .with_coarsening(!self.without_coarsening);
@@ -432,13 +445,15 @@ impl Mesher {
         let (mut dual, domain) = if let Some(size) = &self.size {
             Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?
         } else {
-            let occupants = refiner.occupants();
-            (extract(refiner.grid_mut(), &occupants, domain, relocation, monitor)?, domain)
+            (refiner.extract(domain, relocation, monitor)?, domain)
         };
         let mut ended = Ended { reached: true, spent: false };
         if optimize {
-            let options = compact::options(bounds, self.effort, self.budget);
-            ended = compact::optimize_dual(&mut dual, &options, self.size.as_ref(), monitor)?;
+            let work = Work { bounds, effort: self.effort, size: self.size.as_ref(), monitor };
+            ended = work.optimize(&mut dual, start == Start::Coarse, time)?;
+            if start == Start::Coarse && ended.spent && !ended.reached && self.method.keeps(bounds) {
+                return Ok(None);
+            }
         }
         let extracted = Instant::now();
 
@@ -455,7 +470,7 @@ impl Mesher {
         let size_ratio = self.size_ratio(&dual.mesh)?;
         let certified = Instant::now();
         let of_input = set.site_of_input().iter().map(|&site| dual.vertex_of_occupant[site as usize]);
-        Ok(Triangulation {
+        Ok(Some(Triangulation {
             vertex_of_input: of_input.collect(),
             mesh: dual.mesh,
             certificate,
@@ -472,7 +487,7 @@ impl Mesher {
                 total: (certified - began).as_secs_f64(),
             },
             refiner,
-        })
+        }))
     }
 
     /// The lattice of a mesh of templates with the base level as its coarsest,

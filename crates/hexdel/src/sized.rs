@@ -8,7 +8,7 @@
 use crate::error::Error;
 use crate::placement;
 use crate::size::{Size, SizeError};
-use hexdel_classify::{Domain, Dual, Relocation, extract};
+use hexdel_classify::{Domain, Dual, Relocation};
 use hexdel_geom::{DVec2, Monitor, TriMesh};
 use hexdel_grid::{Address, Grid};
 use hexdel_optimize::{Sizing, edge_fits};
@@ -42,9 +42,7 @@ impl Sized<'_> {
         let mut domain = self.with_base(patch)?;
         let mut first = domain.radius;
         for _ in 0..ROUNDS {
-            let occupants = self.refiner.occupants();
-            let grid = self.refiner.grid_mut();
-            let dual = extract(grid, &occupants, domain, self.relocation, self.monitor)?;
+            let dual = self.refiner.extract(domain, self.relocation, self.monitor)?;
             // What is fine in a place that no triangle has seen yet shows later.
             check_count(&dual.mesh, self.size)?;
             let long = self.at_long_edges(&dual.mesh, domain.base_level)?;

@@ -144,6 +144,7 @@ fn without_time_the_templates_mesh_is_left() {
     let ample = compact().budget(Duration::from_secs(3600)).triangulate(&points).unwrap();
     hold(&ample, &points, AngleBounds::EXTENDED);
     assert!(ample.mesh.triangles.len() < made.mesh.triangles.len() / 5);
+    assert_eq!((made.start, ample.start), (Start::Templates, Start::Coarse));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use super::inputs::Input;
 use crate::Outcome;
-use hexdel_classify::{Domain, Relocation, extract};
+use hexdel_classify::{Domain, Relocation};
 use hexdel_geom::{DVec2, Unwatched};
 use hexdel_grid::Lattice;
 use hexdel_refine::{Refiner, RuleSet};
@@ -111,8 +111,7 @@ fn hexdel(points: &[DVec2]) -> Result<Measured, Box<dyn std::error::Error + Send
     let refine = clock.read();
     let (clock, asked) = (Clock::start(), refiner.tiles_asked() as f64);
     let domain = Domain::around(refiner.grid(), 0).ok_or("a point lies above the base level")?;
-    let occupants = refiner.occupants();
-    let dual = extract(refiner.grid_mut(), &occupants, domain, Relocation::Full, &Unwatched)?;
+    let dual = refiner.extract(domain, Relocation::Full, &Unwatched)?;
     let extract = clock.read();
     let tiles = refiner.grid().tiles();
     let tiles = (0..tiles.levels()).map(|level| tiles.level(level as u8).len() as f64).sum();

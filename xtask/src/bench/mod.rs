@@ -97,9 +97,8 @@ fn measure_row(input: Input, points: usize, threads: usize) -> Result<Row, Box<d
 
 /// The best of a few runs: what disturbs a measurement only ever adds to it.
 fn measure(case: &Case) -> Result<Measured, Box<dyn std::error::Error>> {
-    let runs = if case.points <= 100_000 { 3 } else { 1 };
     let mut best: Option<Measured> = None;
-    for _ in 0..runs {
+    for _ in 0..3 {
         let measured = measure_once(case)?;
         let time = |m: &Measured| if case.threads == 1 { m.cpu() } else { m.wall() };
         if best.is_none_or(|best| time(&measured) < time(&best)) {

@@ -52,7 +52,7 @@ pub(crate) fn closed(pattern: Window, rules: &RuleSet, keeps: impl Fn(&Grid) -> 
         }
         for (id, bits) in asked {
             for bit in ones(bits) {
-                let at = grid.tiles().get(0, id).first() + hex_of(bit);
+                let at = grid.tiles().first(0, id) + hex_of(bit);
                 let (id, bit) = grid.tiles_mut().require(0, at);
                 grid.tiles_mut().get_mut(0, id).subdivided |= 1 << bit;
             }

@@ -30,7 +30,7 @@ impl Domain {
 
     /// Whether nothing in a tile of the base level touches the rim.
     pub(super) fn holds(self, grid: &Grid, id: TileId) -> bool {
-        let first = grid.tiles().get(self.base_level, id).first();
+        let first = grid.tiles().first(self.base_level, id);
         let radius = u64::from(self.radius);
         busy(grid, self.base_level, id).iter().all(|at| (first + at).norm() < radius)
     }
@@ -87,7 +87,7 @@ impl Domain {
         }
         let reach = tiles(grid, base_level)
             .flat_map(|id| {
-                let first = grid.tiles().get(base_level, id).first();
+                let first = grid.tiles().first(base_level, id);
                 busy(grid, base_level, id).iter().map(move |at| (first + at).norm())
             })
             .max();

@@ -5,14 +5,16 @@ use super::{triangles, vertices};
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use hexdel_grid::TileId;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Triangles of one task, about: enough work to be worth handing out, and
 /// little enough that its part of the mesh stays in the cache.
 const TRIANGLES_PER_TASK: u32 = 1 << 13;
 
-/// Tiles, and the parts of the mesh that they own.
+/// Tiles of a level, and the parts of the mesh that they own.
 struct Task<'a> {
-    tiles: &'a [(u8, TileId)],
+    level: u8,
+    tiles: Range<usize>,
     vertices: &'a mut [[f64; 2]],
     triangles: &'a mut [[u32; 3]],
 }
@@ -24,8 +26,7 @@ pub(super) fn mesh(layout: &Layout) -> TriMesh {
     // afterwards moves nothing.
     let mut vertices = vec![[0.0; 2]; layout.vertices() as usize];
     let mut triangles = vec![[0; 3]; layout.triangles() as usize];
-    let owners: Vec<_> = layout.owners().collect();
-    tasks(layout, &owners, &mut vertices, &mut triangles).into_par_iter().for_each(|task| fill(layout, task));
+    tasks(layout, &mut vertices, &mut triangles).into_par_iter().for_each(|task| fill(layout, task));
     TriMesh {
         vertices: vertices.into_iter().map(|[x, y]| DVec2::new(x, y)).collect(),
         triangles: triangles
@@ -39,27 +40,27 @@ pub(super) fn mesh(layout: &Layout) -> TriMesh {
 
 fn tasks<'a>(
     layout: &Layout,
-    owners: &'a [(u8, TileId)],
     mut vertices: &'a mut [[f64; 2]],
     mut triangles: &'a mut [[u32; 3]],
 ) -> Vec<Task<'a>> {
     let mut tasks = Vec::new();
-    let mut rest = owners;
-    while !rest.is_empty() {
-        let (mut tiles, mut owned) = (0, (0, 0));
-        while tiles < rest.len() && owned.1 < TRIANGLES_PER_TASK {
-            let block = layout.block(rest[tiles].0, rest[tiles].1);
-            owned.0 += block.vertices.count_ones();
-            owned.1 += block.triangles;
-            tiles += 1;
+    for (level, blocks) in layout.levels() {
+        let mut first = 0;
+        while first < blocks.len() {
+            let (mut end, mut owned) = (first, (0, 0));
+            while end < blocks.len() && owned.1 < TRIANGLES_PER_TASK {
+                owned.0 += blocks[end].vertices.count_ones();
+                owned.1 += blocks[end].triangles;
+                end += 1;
+            }
+            tasks.push(Task {
+                level,
+                tiles: first..end,
+                vertices: split_off(&mut vertices, owned.0),
+                triangles: split_off(&mut triangles, owned.1),
+            });
+            first = end;
         }
-        let (mine, others) = rest.split_at(tiles);
-        rest = others;
-        tasks.push(Task {
-            tiles: mine,
-            vertices: split_off(&mut vertices, owned.0),
-            triangles: split_off(&mut triangles, owned.1),
-        });
     }
     tasks
 }
@@ -71,10 +72,12 @@ fn split_off<'a, T>(slice: &mut &'a mut [T], count: u32) -> &'a mut [T] {
 }
 
 fn fill(layout: &Layout, task: Task) {
-    let Task { tiles, mut vertices, mut triangles } = task;
-    for &(level, id) in tiles {
+    let Task { level, tiles, mut vertices, mut triangles } = task;
+    for id in tiles.map(TileId::new) {
         let block = layout.block(level, id);
-        vertices::fill_tile(layout, level, id, split_off(&mut vertices, block.vertices.count_ones()));
+        if block.vertices != 0 {
+            vertices::fill_tile(layout, level, id, split_off(&mut vertices, block.vertices.count_ones()));
+        }
         triangles::fill_tile(layout, level, id, split_off(&mut triangles, block.triangles));
     }
 }

@@ -105,7 +105,7 @@ impl KeptDual {
     /// The place that a name stands for.
     pub fn address(&self, grid: &Grid, name: u32) -> Address {
         let (level, id) = self.tile_of(name / Self::PAGE);
-        Address::new(level, grid.tiles().get(level, id).first() + hex_of(name % Self::PAGE))
+        Address::new(level, grid.tiles().first(level, id) + hex_of(name % Self::PAGE))
     }
 
     /// The name of a place whose tile has a page.
@@ -170,7 +170,7 @@ impl KeptDual {
         let (level, id) = at;
         let old = self.blocks[usize::from(level)][id.index()];
         let exists = if level == self.domain.base_level {
-            self.domain.window(grid.tiles().get(level, id).first()).centre()
+            self.domain.window(grid.tiles().first(level, id)).centre()
         } else {
             old.exists
         };

@@ -107,12 +107,9 @@ impl<'a> Layout<'a> {
         self.vertex_count
     }
 
-    /// The tiles that own part of the mesh, in the order of their vertices.
-    pub(super) fn owners(&self) -> impl Iterator<Item = (u8, TileId)> {
-        self.blocks.iter().enumerate().flat_map(|(level, blocks)| {
-            let owned = blocks.iter().enumerate().filter(|(_, b)| b.vertices != 0 || b.triangles != 0);
-            owned.map(move |(i, _)| (level as u8, TileId::new(i)))
-        })
+    /// The blocks of each level, by tile id: in the order of their vertices.
+    pub(super) fn levels(&self) -> impl Iterator<Item = (u8, &[Block])> {
+        (0..).zip(&self.blocks).map(|(level, blocks)| (level, blocks.as_slice()))
     }
 
     #[inline]
@@ -201,28 +198,40 @@ pub(super) fn surveyed(grid: &mut Grid, domain: Domain, templates: bool) -> Vec<
     let mut level = domain.base_level;
     let mut current = patch(grid, domain);
     while !current.is_empty() {
-        let survey = |(i, block): (usize, &mut Block)| {
-            let id = TileId::new(i);
-            survey(grid, level, id, block, templates).map(|brood| (id, brood))
-        };
-        let broods: Vec<_> = current.par_iter_mut().enumerate().filter_map(survey).collect();
-        blocks.push(std::mem::take(&mut current));
-        for (id, brood) in broods {
-            for quadrant in 0..4 {
-                let (exists, vertices) = (brood.exists[quadrant], brood.inserted[quadrant]);
-                if exists | vertices != 0 {
-                    let child = grid.tiles_mut().require_child(level, id, quadrant).index();
-                    if child >= current.len() {
-                        let tiles = grid.tiles().level(level + 1).len();
-                        current.resize(tiles, Block::default());
-                    }
-                    current[child] = Block { exists, vertices, ..Block::default() };
-                }
+        let mut finer = Vec::new();
+        for (chunk, blocks) in (0..).zip(current.chunks_mut(SURVEYED_AT_ONCE)) {
+            let survey = |(i, block): (usize, &mut Block)| {
+                let id = TileId::new(SURVEYED_AT_ONCE * chunk + i);
+                survey(grid, level, id, block, templates).map(|brood| (id, brood))
+            };
+            let broods: Vec<_> = blocks.par_iter_mut().enumerate().filter_map(survey).collect();
+            for (id, brood) in broods {
+                bring_forth(grid, (level, id), &brood, &mut finer);
             }
         }
+        blocks.push(std::mem::replace(&mut current, finer));
         level += 1;
     }
     blocks
+}
+
+/// Tiles surveyed before what they bring forth is entered one level finer: so
+/// few that it stays in the cache.
+const SURVEYED_AT_ONCE: usize = 1 << 12;
+
+/// Enters what a tile brings forth into the blocks one level finer.
+fn bring_forth(grid: &mut Grid, (level, id): (u8, TileId), brood: &Brood, finer: &mut Vec<Block>) {
+    for quadrant in 0..4 {
+        let (exists, vertices) = (brood.exists[quadrant], brood.inserted[quadrant]);
+        if exists | vertices != 0 {
+            let child = grid.tiles_mut().require_child(level, id, quadrant).index();
+            if child >= finer.len() {
+                let tiles = grid.tiles().level(level + 1).len();
+                finer.resize(tiles, Block::default());
+            }
+            finer[child] = Block { exists, vertices, ..Block::default() };
+        }
+    }
 }
 
 /// The tiles of the base level that the domain touches, made if need be.
@@ -233,9 +242,8 @@ fn patch(grid: &mut Grid, domain: Domain) -> Vec<Block> {
             grid.tiles_mut().require(domain.base_level, Hex::new(q, r));
         }
     }
-    let tiles = grid.tiles().level(domain.base_level);
-    let exists = |t: &hexdel_grid::Tile| domain.window(t.first()).centre();
-    tiles.iter().map(|t| Block { exists: exists(t), ..Block::default() }).collect()
+    let tiles = grid.tiles().placed(domain.base_level);
+    tiles.map(|(first, _)| Block { exists: domain.window(first).centre(), ..Block::default() }).collect()
 }
 
 /// Completes a tile's block, of which `exists` and the inserted vertices are

@@ -18,10 +18,11 @@
 //! `t` the top. A single one loses its centre; one in a run keeps it, and the
 //! point on the fin between two of a run is shared.
 
-use crate::class::{Classes, middle_fin};
+use crate::class::{Classes, has_middle_fin, middle_fin};
 use crate::exact::Offset;
 use crate::relocate::star_points;
 use hexdel_grid::{Direction, Hex, Window};
+use std::sync::OnceLock;
 
 /// A `MovedCenter3` and its place in a run.
 #[derive(Clone, Copy)]
@@ -39,12 +40,21 @@ impl Star {
     pub(super) fn of(subdivided: Window, at: Hex) -> Option<Self> {
         let middle = middle_fin(subdivided, at)?;
         let goes_on =
-            |turn, by| middle_fin(subdivided, at.neighbour(middle.turned(by))) == Some(middle.turned(turn));
+            |turn, by| has_middle_fin(subdivided, at.neighbour(middle.turned(by)), middle.turned(turn));
         Some(Self { middle, before: goes_on(5, 4), after: goes_on(1, 2) })
     }
 
     pub(super) fn single(self) -> bool {
         !self.before && !self.after
+    }
+
+    /// What [`star_points`] says, looked up.
+    fn points(self) -> &'static [Offset; 3] {
+        static POINTS: OnceLock<[[Offset; 3]; 24]> = OnceLock::new();
+        let points = POINTS.get_or_init(|| {
+            std::array::from_fn(|i| star_points(Direction::new(i / 4), i & 2 != 0, i & 1 != 0))
+        });
+        &points[4 * self.middle.index() + 2 * usize::from(self.before) + usize::from(self.after)]
     }
 }
 
@@ -75,9 +85,8 @@ pub(super) fn count(classes: &Classes, (before, after): (Window, Window), exists
 /// `fin`, relative to `hex`; `None` if `hex` is no `MovedCenter3`.
 pub(super) fn point_on_fin(subdivided: Window, hex: Hex, fin: Hex) -> Option<Offset> {
     let star = Star::of(subdivided, hex)?;
-    let points = star_points(star.middle, star.before, star.after);
     let i = (0..3).find(|&i| star.middle.turned(5 + i).step() == fin - hex)?;
-    Some(points[i])
+    Some(star.points()[i])
 }
 
 /// Where the point lies that is inserted between a subdivided hexagon and one
@@ -111,16 +120,13 @@ pub(super) fn emit(star: Star, at: Hex, corners: &impl Corners, mut push: impl F
         corners.finer(owner + fins[i])
     });
     let [g0, g2, top] = [4, 2, 3].map(|by| at + d(by));
-    for t in [
-        [p[0], a[0], m01],
-        [p[0], m01, p[1]],
-        [p[1], m01, a[1]],
-        [p[1], a[1], m12],
-        [p[1], m12, p[2]],
-        [p[2], m12, a[2]],
-    ] {
-        push(t);
-    }
+    // One by one: an array of them would be written, and read again at once.
+    push([p[0], a[0], m01]);
+    push([p[0], m01, p[1]]);
+    push([p[1], m01, a[1]]);
+    push([p[1], a[1], m12]);
+    push([p[1], m12, p[2]]);
+    push([p[2], m12, a[2]]);
     if !star.before {
         push([p[0], corners.leaf(g0), a[0]]);
     }
@@ -129,15 +135,17 @@ pub(super) fn emit(star: Star, at: Hex, corners: &impl Corners, mut push: impl F
     }
     let (g0, g2, top) = (corners.leaf(g0), corners.leaf(g2), corners.leaf(top));
     if star.single() {
-        for t in [[p[0], p[1], p[2]], [p[0], p[2], top], [p[0], top, g0], [p[2], g2, top]] {
-            push(t);
-        }
+        push([p[0], p[1], p[2]]);
+        push([p[0], p[2], top]);
+        push([p[0], top, g0]);
+        push([p[2], g2, top]);
         return;
     }
     let c = corners.leaf(at);
-    for t in [[c, p[0], p[1]], [c, p[1], p[2]], [c, p[2], g2], [c, g2, top]] {
-        push(t);
-    }
+    push([c, p[0], p[1]]);
+    push([c, p[1], p[2]]);
+    push([c, p[2], g2]);
+    push([c, g2, top]);
     if !star.before {
         push([c, top, g0]);
         push([c, g0, p[0]]);

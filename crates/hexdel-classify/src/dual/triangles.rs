@@ -50,15 +50,19 @@ fn emit_whole<const DOWN: bool>(tile: &OwnerTile, walk: &Walk, out: &mut Emitter
     for bit in ones(walk.whole) {
         // Where `hex_of(bit)` is kept: rows are twice as long as the tile's.
         let i = (bit + (bit & 0x38)) as usize + ROW + 1;
-        let mut corners = [tile.ids[i], tile.ids[i + second], tile.ids[i + third]];
-        if corners[0].max(corners[1]).max(corners[2]) == NONE {
+        let (mut a, mut b, mut c) = (tile.ids[i], tile.ids[i + second], tile.ids[i + third]);
+        // At most one corner is none.
+        if a.max(b).max(c) == NONE {
             let h = hex_of(bit);
-            let at = [h, h.neighbour(walk.second()), h.neighbour(walk.third())];
-            for (corner, at) in corners.iter_mut().zip(at).filter(|(corner, _)| **corner == NONE) {
-                *corner = tile.finer(at.scaled());
+            if a == NONE {
+                a = tile.finer(h.scaled());
+            } else if b == NONE {
+                b = tile.finer(h.neighbour(walk.second()).scaled());
+            } else {
+                c = tile.finer(h.neighbour(walk.third()).scaled());
             }
         }
-        out.push(corners);
+        out.push([a, b, c]);
     }
 }
 
@@ -93,8 +97,8 @@ struct OwnerTile<'a> {
     layout: &'a Layout<'a>,
     level: u8,
     id: TileId,
-    /// The vertices of the tile and of one hexagon around it; [`NONE`] where
-    /// there is none. Vertices inserted on semi-hexagons are there, too.
+    /// The vertices of the tile and, as far as its triangles reach, of one hexagon
+    /// around it; [`NONE`] where there is none. Vertices inserted on semi-hexagons are there, too.
     ids: [u32; 10 * ROW],
     /// The blocks one level finer, under the tile and beside them, row by row;
     /// found when they are first asked for.
@@ -103,24 +107,31 @@ struct OwnerTile<'a> {
 
 impl<'a> OwnerTile<'a> {
     fn new(layout: &'a Layout<'a>, level: u8, id: TileId) -> Self {
-        const WEST: u64 = 0x0101_0101_0101_0101;
-        const COLUMNS: [u64; 3] = [WEST << 7, u64::MAX, WEST];
-        const ROWS: [u64; 3] = [0xff << 56, u64::MAX, 0xff];
+        let own = layout.block(level, id);
         let mut ids = [NONE; 10 * ROW];
-        for row in -1..=1 {
-            for column in -1..=1 {
-                let Some(there) = layout.grid.tiles().beside(level, id, column, row) else {
-                    continue;
-                };
-                let block = layout.block(level, there);
-                let seen = block.vertices & COLUMNS[(column + 1) as usize] & ROWS[(row + 1) as usize];
-                let corner = Hex::new(8 * column, 8 * row);
-                if seen == 0 {
-                    continue;
-                }
-                for bit in ones(seen) {
-                    ids[place(corner + hex_of(bit))] = block.vertex(bit).index() as u32;
-                }
+        number_all(own, &mut ids);
+        let beside =
+            |column, row| Some(layout.block(level, layout.grid.tiles().beside(level, id, column, row)?));
+        // What triangles with their lowest corner here reach ...
+        if let Some(east) = beside(1, 0) {
+            number_column::<0>(east, 8, &mut ids);
+        }
+        if let Some(north) = beside(0, 1) {
+            number_row::<0>(north, 8, &mut ids);
+        }
+        if let Some(west) = beside(-1, 0) {
+            number_column::<7>(west, -1, &mut ids);
+        }
+        if let Some(north_west) = beside(-1, 1) {
+            number_one::<7>(north_west, Hex::new(-1, 8), &mut ids);
+        }
+        // ... and stars around a centre here.
+        if own.three != 0 {
+            if let Some(south) = beside(0, -1) {
+                number_row::<7>(south, -1, &mut ids);
+            }
+            if let Some(south_east) = beside(1, -1) {
+                number_one::<56>(south_east, Hex::new(8, -1), &mut ids);
             }
         }
         Self { layout, level, id, ids, finer: OnceCell::new() }
@@ -136,6 +147,62 @@ impl<'a> OwnerTile<'a> {
             self.layout.block_if_any(self.level + 1, child)
         })
     }
+}
+
+/// Enters the vertices of a tile itself.
+#[inline]
+fn number_all(block: &Block, ids: &mut [u32; 10 * ROW]) {
+    for (id, bit) in (block.first_vertex..).zip(ones(block.numbered)) {
+        if block.vertices >> bit & 1 == 1 {
+            ids[(bit + (bit & 0x38)) as usize + ROW + 1] = id;
+        }
+    }
+}
+
+/// Enters the vertices of row `R` of a tile as the row `to`.
+#[inline]
+fn number_row<const R: u32>(block: &Block, to: i64, ids: &mut [u32; 10 * ROW]) {
+    let before = block.numbered & ((1 << (8 * R)) - 1);
+    let first = block.first_vertex + before.count_ones();
+    for (id, column) in (first..).zip(ones(block.numbered >> (8 * R) & 0xff)) {
+        if block.vertices >> (8 * R + column) & 1 == 1 {
+            ids[place(Hex::new(i64::from(column), to))] = id;
+        }
+    }
+}
+
+/// Enters the vertices of column `C`, the first or last, of a tile as the column
+/// `to`.
+#[inline]
+fn number_column<const C: u32>(block: &Block, to: i64, ids: &mut [u32; 10 * ROW]) {
+    const FIRST: u64 = 0x0101_0101_0101_0101;
+    let seen = block.vertices & FIRST << C;
+    if seen == 0 {
+        return;
+    }
+    // The last of a row comes just before the first of the next one.
+    let through = ones_through_rows(block.numbered);
+    let ranks = if C == 0 { through << 8 } else { through - (block.numbered >> 7 & FIRST) };
+    for bit in ones(seen) {
+        let (row, rank) = (i64::from(bit / 8), ranks >> (bit & 0x38) & 0xff);
+        ids[place(Hex::new(to, row))] = block.first_vertex + rank as u32;
+    }
+}
+
+/// Enters one vertex of a tile.
+#[inline]
+fn number_one<const BIT: u32>(block: &Block, to: Hex, ids: &mut [u32; 10 * ROW]) {
+    if block.vertices >> BIT & 1 == 1 {
+        ids[place(to)] = block.vertex(BIT).index() as u32;
+    }
+}
+
+/// Byte `r`: how many ones the rows up to `r` hold.
+#[inline]
+const fn ones_through_rows(word: u64) -> u64 {
+    let word = word - (word >> 1 & 0x5555_5555_5555_5555);
+    let word = (word & 0x3333_3333_3333_3333) + (word >> 2 & 0x3333_3333_3333_3333);
+    ((word + (word >> 4)) & 0x0f0f_0f0f_0f0f_0f0f).wrapping_mul(0x0101_0101_0101_0101)
 }
 
 impl Corners for OwnerTile<'_> {

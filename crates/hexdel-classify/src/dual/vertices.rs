@@ -1,6 +1,6 @@
 //! Coordinates of the vertices.
 
-use super::layout::{Block, Layout};
+use super::layout::Layout;
 use super::{Occupant, Relocation, star};
 use crate::exact::Offset;
 use crate::relocate::{relocation, ring_may_stay, ring_shift};
@@ -17,27 +17,26 @@ pub(super) fn fill_tile(layout: &Layout, level: u8, id: TileId, out: &mut [[f64;
     let block = layout.block(level, id);
     let frame = Frame::new(layout, level, id);
     let centres = centres();
-    for (place, bit) in out.iter_mut().zip(ones(block.vertices)) {
+    // Where each of the tile's vertices stands in its part of the array.
+    let mut ranks = [0_u8; 64];
+    for (rank, (place, bit)) in (0..).zip(out.iter_mut().zip(ones(block.vertices))) {
         *place = frame.place_at(centres[bit as usize]).to_array();
+        ranks[bit as usize] = rank;
     }
+    let mut put = |bit: u32, at: Offset| {
+        out[usize::from(ranks[bit as usize])] = frame.place(at).to_array();
+    };
     if block.moved & block.vertices != 0 {
         let subdivided = layout.grid.tiles().window(level, id, |t| t.subdivided);
         for bit in ones(block.moved & block.vertices) {
             let at = hex_of(bit);
-            *place_of(block, bit, out) = frame.place(Offset::of(at) + relocation(subdivided, at)).to_array();
+            put(bit, Offset::of(at) + relocation(subdivided, at));
         }
     }
     let inserted = block.vertices & !block.exists;
     if inserted != 0 {
-        fill_inserted(layout, (level, id), inserted, |bit, at| {
-            *place_of(block, bit, out) = frame.place(at).to_array();
-        });
+        fill_inserted(layout, (level, id), inserted, put);
     }
-}
-
-/// The place of a vertex in its tile's part of the array.
-fn place_of<'a>(block: &Block, bit: u32, out: &'a mut [[f64; 2]]) -> &'a mut [f64; 2] {
-    &mut out[block.rank(bit)]
 }
 
 /// Says where the points lie that are inserted at some bits of a tile, relative
@@ -51,8 +50,8 @@ fn fill_inserted(
     let tiles = layout.grid.tiles();
     let (parent, _) = tiles.parent(level, id).expect("points are inserted below the base level");
     let subdivided = tiles.window(level - 1, parent, |t| t.subdivided);
-    let first = tiles.get(level, id).first();
-    let coarser = tiles.get(level - 1, parent).first();
+    let first = tiles.first(level, id);
+    let coarser = tiles.first(level - 1, parent);
     for bit in ones(inserted) {
         let (a, b) = (first - coarser.scaled() + hex_of(bit)).parents();
         let b = b.expect("a semi-hexagon has two parents");
@@ -74,7 +73,7 @@ struct Frame {
 impl Frame {
     /// Around a tile's first hexagon.
     fn new(layout: &Layout, level: u8, id: TileId) -> Self {
-        Self::at(layout.grid.lattice(), level, layout.grid.tiles().get(level, id).first())
+        Self::at(layout.grid.lattice(), level, layout.grid.tiles().first(level, id))
     }
 
     fn at(lattice: &Lattice, level: u8, hex: Hex) -> Self {
@@ -105,9 +104,9 @@ fn centres() -> &'static [DVec2; 64] {
     CENTRES.get_or_init(|| std::array::from_fn(|bit| Offset::of(hex_of(bit as u32)).cartesian()))
 }
 
-/// Occupants looked up at once: so few that what is found about them needs
-/// little memory.
-const OCCUPANTS_AT_ONCE: usize = 1 << 15;
+/// Occupants looked up at once: so few that what is found about them stays in
+/// the cache.
+const OCCUPANTS_AT_ONCE: usize = 1 << 11;
 
 /// Moves the vertices of occupied hexagons onto their points and, with
 /// templates, the rings of those of class `Occupied2` after them. Returns the
@@ -154,11 +153,11 @@ impl Moved {
     fn of(layout: &Layout, occupant: &Occupant, relocation: Relocation) -> Self {
         let (level, hex) = (occupant.level, occupant.at.hex);
         let id = occupant.tile;
-        let at = hex - layout.grid.tiles().get(level, id).first();
+        let at = hex - layout.grid.tiles().first(level, id);
         let ring = (relocation == Relocation::Full && !ring_may_stay(&occupant.at)).then(|| {
-            let shift = ring_shift(&occupant.at);
+            let shift = ring_shift(&occupant.at).cartesian();
             Direction::ALL.map(|d| {
-                let to = Frame::at(layout.grid.lattice(), level, hex.neighbour(d)).place(shift);
+                let to = Frame::at(layout.grid.lattice(), level, hex.neighbour(d)).place_at(shift);
                 (vertex_beside(layout, level, id, at + d.step()), to)
             })
         });
@@ -168,7 +167,11 @@ impl Moved {
 
 /// The vertex at a place relative to a tile, at most one hexagon beyond it.
 fn vertex_beside(layout: &Layout, level: u8, id: TileId, at: Hex) -> VertexId {
-    let there = layout.grid.tiles().beside(level, id, at.q >> 3, at.r >> 3);
+    let there = match (at.q >> 3, at.r >> 3) {
+        // Mostly: then its links need not be read.
+        (0, 0) => Some(id),
+        (column, row) => layout.grid.tiles().beside(level, id, column, row),
+    };
     let bit = 8 * (at.r & 7) + (at.q & 7);
     layout.block(level, there.expect("the ring of an occupied hexagon lies in tiles")).vertex(bit as u32)
 }

@@ -63,7 +63,7 @@ pub(crate) struct Args {
     /// Largest angle allowed [default: the method's; 90 at segments]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     max_angle: Option<f64>,
-    /// Largest area of a triangle
+    /// Largest area of a triangle; of a graph, in the circle around it
     #[arg(short = 'a', long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
     max_area: Option<f64>,
     /// Longest edge, of a mesh of points

@@ -2,8 +2,11 @@
 //! (Sloan, "A fast algorithm for generating constrained Delaunay
 //! triangulations", 1993).
 
-use super::{NONE, Net};
-use hexdel_geom::incircle;
+use super::{Kind, NONE, Net};
+use hexdel_geom::{DVec2, incircle};
+
+/// Free vertices exactly on an edge to be that are taken out of its way.
+const IN_THE_WAY: usize = 16;
 
 /// What a segment meets on its way from a vertex.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +96,25 @@ impl Net {
         self.constrain(a, b, piece);
         self.relax(made);
         true
+    }
+
+    /// Makes `a b` an edge and part of a piece, without free vertices exactly on
+    /// it. Returns whether edges had to be flipped for it, or where that failed.
+    pub(crate) fn link(&mut self, a: u32, b: u32, piece: u32) -> Result<bool, DVec2> {
+        for _ in 0..IN_THE_WAY {
+            match self.trace(a, b) {
+                Trace::Vertex { vertex, crossed } if vertex == b => {
+                    let flips = !crossed.is_empty();
+                    return if self.recover(a, b, crossed, piece) { Ok(flips) } else { Err(self.at(a)) };
+                }
+                Trace::Vertex { vertex, .. }
+                    if self.vertex(vertex).kind == Kind::Free && self.remove(vertex) => {}
+                Trace::Vertex { vertex, .. } => return Err(self.at(vertex)),
+                Trace::Blocked([p, q]) => return Err(self.at(p).midpoint(self.at(q))),
+                Trace::Lost => return Err(self.at(a)),
+            }
+        }
+        Err(self.at(a))
     }
 
     /// Whether edge `c d` crosses the line from `a` to `b` between its ends.

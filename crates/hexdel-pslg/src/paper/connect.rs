@@ -6,12 +6,7 @@
 
 use super::rules::Scene;
 use crate::error::PslgError;
-use crate::net::trace::Trace;
 use crate::net::{Kind, Net};
-use hexdel_geom::DVec2;
-
-/// Free vertices exactly on a segment that are taken out of its way.
-const IN_THE_WAY: usize = 16;
 
 /// Makes all pieces unions of edges. Returns how many edges had to be flipped
 /// for.
@@ -35,26 +30,9 @@ pub(super) fn connect(net: &mut Net, scene: &Scene<'_>, vertex_of_site: &[u32]) 
         let chain: Vec<u32> = std::iter::once(first).chain(own).chain([last]).collect();
         next += chain.len() - 2;
         for pair in chain.windows(2) {
-            let at = |at| PslgError::NotRecovered { segment: piece.segment as usize, at };
-            flipped += usize::from(link(net, pair[0], pair[1], i).map_err(at)?);
+            let at = |at| PslgError::NotRecovered { item: piece.feature(), at };
+            flipped += usize::from(net.link(pair[0], pair[1], i).map_err(at)?);
         }
     }
     Ok(flipped)
-}
-
-/// Makes two vertices neighbours. Returns whether they were not.
-fn link(net: &mut Net, a: u32, b: u32, piece: u32) -> Result<bool, DVec2> {
-    for _ in 0..IN_THE_WAY {
-        match net.trace(a, b) {
-            Trace::Vertex { vertex, crossed } if vertex == b => {
-                let flips = !crossed.is_empty();
-                return if net.recover(a, b, crossed, piece) { Ok(flips) } else { Err(net.at(a)) };
-            }
-            Trace::Vertex { vertex, .. } if net.vertex(vertex).kind == Kind::Free && net.remove(vertex) => {}
-            Trace::Vertex { vertex, .. } => return Err(net.at(vertex)),
-            Trace::Blocked([p, q]) => return Err(net.at(p).midpoint(net.at(q))),
-            Trace::Lost => return Err(net.at(a)),
-        }
-    }
-    Err(net.at(a))
 }

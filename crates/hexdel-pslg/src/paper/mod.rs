@@ -35,6 +35,7 @@ use crate::net::{Kind, Net};
 use crate::options::{Deadline, Extent, Options};
 use crate::output::{self, Parts};
 use crate::result::PslgMesh;
+use crate::sectors::Sectors;
 use crate::sizing::{Demand, Features, lattice_for, refine};
 use crate::validate::Validated;
 use hexdel_classify::{Domain, DualError, Occupant, Relocation, extract};
@@ -86,11 +87,20 @@ pub(crate) fn mesh(
     check(monitor)?;
     let wedges = Wedges::default();
     let judge = Judge { near: options.near, far: options.far, wedges: &wedges };
+    // Templates excuse more than narrow corners could.
+    let sectors = Sectors::of(&[], &[], &[], 0.0);
     // Nothing here takes time that could be spared.
     let deadline = Deadline::after(None);
     let plain = fans::Scene::plain(input, pieces.clone());
-    let parts =
-        Parts { input, scene: &plain, sectors: &[], judge, method: options.method, deadline: &deadline };
+    let parts = Parts {
+        input,
+        scene: &plain,
+        sectors: &sectors,
+        judge,
+        method: options.method,
+        deadline: &deadline,
+        areas: areas.as_ref(),
+    };
     output::finish(net, &parts, attempt, monitor)
 }
 

@@ -321,7 +321,7 @@ fn disturbed(grid: &Grid, passed: &[Passed]) -> Vec<Raise> {
         let classes = Classes::of(view.subdivided);
         let moved = view.subdivided | classes.finned() | classes.moved4();
         let near = moved.dilated();
-        let first = grid.tiles().get(at.level, id).first();
+        let first = grid.tiles().first(at.level, id);
         for &i in group {
             if near.contains(passed[i].at.hex - first) {
                 raises.extend(passed[i].pieces.iter().map(|&piece| Raise {

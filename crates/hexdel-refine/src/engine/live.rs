@@ -474,7 +474,8 @@ impl Refiner {
                 let tile = self.grid.tiles_mut().get_mut(level - 1, parent);
                 tile.needed |= bits;
                 let bit = ones(bits & !tile.subdivided).next();
-                lacking = lacking.or(bit.map(|bit| Address::new(level - 1, tile.first() + hex_of(bit))));
+                let first = self.grid.tiles().first(level - 1, parent);
+                lacking = lacking.or(bit.map(|bit| Address::new(level - 1, first + hex_of(bit))));
             }
         }
         lacking

@@ -157,8 +157,10 @@ impl Mesher {
         self
     }
 
-    /// The largest area of a triangle of a graph's mesh, in square input units.
-    /// Regions may have limits of their own, and keep both.
+    /// The largest area of a triangle of a graph's mesh, in square input units,
+    /// whose centroid lies in the smallest circle around the graph. Regions may
+    /// have limits of their own, and keep both. Triangles that are larger all the
+    /// same are listed in [`failed`](PslgTriangulation::failed).
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, Pslg};
@@ -242,7 +244,8 @@ impl Mesher {
     /// points of the segment. Triangles are counter-clockwise, exactly, and
     /// Delaunay. Those that do not keep their bounds are listed with reason and
     /// place: [`exempt`](PslgTriangulation::exempt) at corners of the input
-    /// narrower than the bound, [`failed`](PslgTriangulation::failed) elsewhere.
+    /// narrower than the bound, [`failed`](PslgTriangulation::failed) elsewhere,
+    /// and so are those larger than a limit on areas.
     /// That none fails is not guaranteed; where segments meet at 30 degrees or
     /// more it is what to expect. Same graph, same bytes, at any number of
     /// threads.

@@ -41,6 +41,7 @@ impl Repaired {
             V::Duplicate { segments, ends } => V::Duplicate { segments: both(segments), ends },
             V::Overlap { segments, ends } => V::Overlap { segments: both(segments), ends },
             V::Crossing { segments, at } => V::Crossing { segments: both(segments), at },
+            V::NotFollowed { segment, at } => V::NotFollowed { segment: self.segment(segment), at },
             V::OutOfRange { index, point, limit } => {
                 V::OutOfRange { index: self.point(index).unwrap_or(index), point, limit }
             }
@@ -60,9 +61,7 @@ impl Repaired {
             PslgError::TooClose { items, at, spacing } => {
                 PslgError::TooClose { items: items.map(item), at, spacing }
             }
-            PslgError::NotRecovered { segment, at } => {
-                PslgError::NotRecovered { segment: self.segment(segment), at }
-            }
+            PslgError::NotRecovered { item: part, at } => PslgError::NotRecovered { item: item(part), at },
             other => other,
         };
         error.into()

@@ -35,7 +35,7 @@ pub struct PslgReport<'a> {
     pub segments_missing: usize,
     /// Triangles that only a corner of the input puts out of bounds.
     pub exempt: Vec<ExceptionEntry>,
-    /// Triangles out of bounds.
+    /// Triangles out of bounds, or larger than allowed.
     pub failed: Vec<ExceptionEntry>,
     /// What repair did, in order.
     pub repairs: Vec<RepairEntry>,
@@ -47,7 +47,7 @@ pub struct PslgReport<'a> {
     pub seconds: Seconds,
 }
 
-/// A triangle that does not keep its bounds.
+/// A triangle that does not keep its bounds, or is larger than allowed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ExceptionEntry {
@@ -59,9 +59,11 @@ pub struct ExceptionEntry {
     pub min_angle_deg: f64,
     /// Its largest angle, degrees.
     pub max_angle_deg: f64,
-    /// Why, in a word: "sector", "near sector", "template" or
+    /// Why, in a word: "sector", "near sector", "template", "too large" or
     /// "unsolved".
     pub reason: &'static str,
+    /// Of a triangle that is too large: its area and the largest allowed there.
+    pub areas: Option<[f64; 2]>,
     /// The corner of the input to blame, if there is one.
     pub corner: Option<Corner>,
 }
@@ -126,11 +128,16 @@ impl ExceptionEntry {
             Reason::Sector { point, angle_deg } => ("sector", Some(corner(point, angle_deg))),
             Reason::NearSector { point, angle_deg, .. } => ("near sector", Some(corner(point, angle_deg))),
             Reason::Template => ("template", None),
+            Reason::TooLarge { .. } => ("too large", None),
             _ => ("unsolved", None),
+        };
+        let areas = match exception.reason {
+            Reason::TooLarge { area, limit } => Some([area, limit]),
+            _ => None,
         };
         let [min_angle_deg, max_angle_deg] = exception.angles_deg;
         let triangle = exception.triangle.index();
-        Self { triangle, at: exception.at, min_angle_deg, max_angle_deg, reason, corner }
+        Self { triangle, at: exception.at, min_angle_deg, max_angle_deg, reason, areas, corner }
     }
 }
 
@@ -145,6 +152,10 @@ impl std::fmt::Display for ExceptionEntry {
             }
             (_, Some(Corner { point, angle_deg, .. })) => {
                 write!(f, "near point {point}, where segments meet at {angle_deg:.4}")
+            }
+            ("too large", _) => {
+                let [area, limit] = self.areas.unwrap_or_default();
+                write!(f, "area {area} where {limit} is allowed")
             }
             ("template", _) => write!(f, "by the paper's templates"),
             _ => write!(f, "no way was found"),

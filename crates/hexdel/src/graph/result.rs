@@ -5,7 +5,7 @@ use super::repair::Repaired;
 use super::report::PslgReport;
 use crate::triangulation::Seconds;
 use hexdel_geom::{Certificate, Pslg, SegmentCheck, TriMesh, VertexId};
-use hexdel_pslg::{Exception, PslgMesh, Reason, RepairReport, SegmentEdge, SegmentMethod};
+use hexdel_pslg::{Exception, PslgMesh, RepairReport, SegmentEdge, SegmentMethod, holds};
 
 /// A mesh of a graph of points and segments.
 ///
@@ -40,7 +40,7 @@ pub struct PslgTriangulation {
     /// Triangles that keep their bounds but for the angle between two segments
     /// that meet in an input point.
     pub exempt: Vec<Exception>,
-    /// Triangles that do not keep their bounds.
+    /// Triangles that do not keep their bounds, or are larger than allowed.
     pub failed: Vec<Exception>,
     /// What the mesh was found to keep, held against the bounds near segments.
     /// Exempt and failed triangles count as out of bounds in it.
@@ -107,14 +107,7 @@ impl PslgTriangulation {
     /// # Ok::<(), hexdel::Error>(())
     /// ```
     pub fn holds(&self) -> bool {
-        let c = &self.certificate;
-        let broken =
-            c.not_counter_clockwise + c.malformed + c.not_finite + c.repeated_edges + c.unused_vertices;
-        let promised = match self.method {
-            SegmentMethod::Paper => self.failed.iter().all(|f| f.reason == Reason::Template),
-            _ => self.failed.is_empty() && c.delaunay,
-        };
-        promised && broken == 0 && c.inputs_kept == c.inputs && self.segments.missing.is_empty()
+        holds(self.method, &self.certificate, &self.failed) && self.segments.missing.is_empty()
     }
 
     /// The vertex of each point given, repaired or not; `None` for a point in a

@@ -17,8 +17,7 @@ pub(super) fn list_all(made: &mut PslgMesh) {
         max_violations: usize::MAX,
         ..CertifyOptions::default()
     };
-    let listed: BTreeSet<TriangleId> =
-        made.exempt.iter().chain(&made.failed).filter(|e| is_of(e, made)).map(|e| e.triangle).collect();
+    let listed: BTreeSet<TriangleId> = made.exempt.iter().chain(&made.failed).map(|e| e.triangle).collect();
     for violation in certify(&made.mesh, &options).violations {
         let (Violation::AngleBelow { triangle, corners, .. }
         | Violation::AngleAbove { triangle, corners, .. }) = violation
@@ -34,12 +33,6 @@ pub(super) fn list_all(made: &mut PslgMesh) {
             made.failed.push(Exception { triangle, at, angles_deg, reason });
         }
     }
-}
-
-/// Whether an exception is about the triangle it names, as it is now.
-fn is_of(exception: &Exception, made: &PslgMesh) -> bool {
-    let [a, b, c] = made.mesh.corners(exception.triangle);
-    exception.at == (a + b + c) / 3.0
 }
 
 /// Checks the segments of a graph, piece by piece between the points on them,

@@ -320,7 +320,7 @@ pub(super) fn in_order<'a>(
 
 /// Level and place of a tile.
 pub(super) fn place(refiner: &Refiner, (level, id): (u8, TileId)) -> (u8, Hex) {
-    (level, refiner.grid().tiles().get(level, id).first())
+    (level, refiner.grid().tiles().first(level, id))
 }
 
 fn forget(moved: &mut BTreeMap<u32, DVec2>, name: u32, replaced: &mut Replaced) {

@@ -72,8 +72,8 @@ impl TemplateSession {
         let (grid, lattice) = (refiner.grid(), self.grown.lattice());
         let mut tiles = Vec::new();
         for level in 0..grid.tiles().levels() as u8 {
-            let busy = grid.tiles().level(level).iter().filter(|t| t.subdivided != 0);
-            tiles.extend(busy.map(|t| (level, t.first().q, t.first().r, t.subdivided)));
+            let busy = grid.tiles().placed(level).filter(|(_, t)| t.subdivided != 0);
+            tiles.extend(busy.map(|(first, t)| (level, first.q, first.r, t.subdivided)));
         }
         tiles.sort_unstable();
         let mut moved: Vec<(u8, i64, i64, DVec2)> = Vec::new();
