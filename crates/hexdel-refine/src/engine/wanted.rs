@@ -43,7 +43,7 @@ impl Refiner {
     pub fn drop_wanted(&mut self, keep: impl Fn(Address) -> bool) -> Result<(), RefineError> {
         let all: Vec<((u8, TileId), u64)> = self.wanted.iter().map(|(&tile, &bits)| (tile, bits)).collect();
         for ((level, id), bits) in all {
-            let first = self.grid.tiles().get(level, id).first();
+            let first = self.grid.tiles().first(level, id);
             let dropped = ones(bits).filter(|&bit| !keep(Address::new(level, first + hex_of(bit))));
             let dropped: u64 = dropped.map(|bit| 1 << bit).sum();
             if dropped != 0 {
@@ -64,7 +64,7 @@ impl Refiner {
         } else {
             self.wanted.insert((level, id), left);
         }
-        let first = self.grid.tiles().get(level, id).first();
+        let first = self.grid.tiles().first(level, id);
         let mut lost = 0;
         for bit in ones(dropped) {
             let at = first + hex_of(bit);
@@ -90,9 +90,7 @@ impl Refiner {
 
     /// The hexagons wanted, tile by tile: level, first hexagon and bits.
     pub fn wanted(&self) -> impl Iterator<Item = (u8, Hex, u64)> + '_ {
-        self.wanted
-            .iter()
-            .map(|(&(level, id), &bits)| (level, self.grid.tiles().get(level, id).first(), bits))
+        self.wanted.iter().map(|(&(level, id), &bits)| (level, self.grid.tiles().first(level, id), bits))
     }
 
     /// The hexagons of a tile that are wanted.
@@ -118,7 +116,7 @@ impl Refiner {
         wanted: impl IntoIterator<Item = (u8, Hex, u64)>,
     ) -> Result<(), RestoreError> {
         for (level, first, bits) in wanted {
-            let found = (level < Grid::MAX_LEVELS && !is_far(first) && (first.q | first.r) & 7 == 0)
+            let found = (level < Grid::MAX_LEVELS && !is_far(first) && (first.q | first.r).trailing_zeros() >= 3)
                 .then(|| self.grid.tiles().find(level, first))
                 .flatten();
             let id =
