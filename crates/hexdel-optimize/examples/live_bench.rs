@@ -122,7 +122,15 @@ fn check(live: &LiveMesh, bounds: AngleBounds, inputs: &[DVec2]) {
 }
 
 /// Milliseconds that this thread has run.
+#[cfg(target_os = "linux")]
 fn cpu_ms() -> f64 {
     let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     now.tv_sec as f64 * 1e3 + now.tv_nsec as f64 * 1e-6
+}
+
+/// Milliseconds since the first call.
+#[cfg(not(target_os = "linux"))]
+fn cpu_ms() -> f64 {
+    static FIRST: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    FIRST.get_or_init(std::time::Instant::now).elapsed().as_secs_f64() * 1e3
 }

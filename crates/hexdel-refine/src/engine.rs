@@ -16,6 +16,7 @@
 //! proportion to what changes: near-linear in the output.
 
 mod live;
+mod wanted;
 
 use crate::coarsen;
 use crate::queue::Queues;
@@ -28,6 +29,7 @@ use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Address, Grid, Lattice, TileId};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use thiserror::Error;
 
 pub use live::{Changes, RestoreError};
@@ -43,6 +45,12 @@ pub enum RefineError {
         site: usize,
         /// The point.
         point: DVec2,
+        /// How many levels there are.
+        levels: u8,
+    },
+    /// A leaf of the finest level was to be subdivided.
+    #[error("a hexagon of the finest of {levels} levels cannot be subdivided")]
+    TooFine {
         /// How many levels there are.
         levels: u8,
     },
@@ -69,6 +77,8 @@ pub struct Refiner {
     asked: u64,
     /// What changes, if points come and go: then demands shrink as well.
     live: Option<Changes>,
+    /// Hexagons that the caller wants subdivided while points come and go.
+    wanted: BTreeMap<(u8, TileId), u64>,
 }
 
 /// Tiles whose rules must be asked again.
@@ -100,6 +110,7 @@ impl Refiner {
             moving: Queues::default(),
             asked: 0,
             live: None,
+            wanted: BTreeMap::new(),
         }
     }
 

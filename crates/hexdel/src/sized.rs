@@ -135,7 +135,7 @@ fn finer(domain: Domain) -> Result<Domain, Error> {
 }
 
 /// The least size along the rim of a patch.
-fn along_rim(size: &Size, centre: DVec2, radius: f64) -> f64 {
+pub(crate) fn along_rim(size: &Size, centre: DVec2, radius: f64) -> f64 {
     let corners = placement::corners(centre, radius);
     let mut least = f64::INFINITY;
     for (i, &a) in corners.iter().enumerate() {
@@ -149,7 +149,7 @@ fn along_rim(size: &Size, centre: DVec2, radius: f64) -> f64 {
 
 /// Refuses sizes that would take too many triangles, before they are made: a
 /// triangle with an edge `n` times too long becomes `n^2`.
-fn check_count(mesh: &TriMesh, size: &Size) -> Result<(), SizeError> {
+pub(crate) fn check_count(mesh: &TriMesh, size: &Size) -> Result<(), SizeError> {
     let mut triangles = 0.0;
     for t in &mesh.triangles {
         let [a, b, c] = t.map(|v| mesh.vertices[v.index()]);

@@ -8,7 +8,11 @@
 mod common;
 
 use common::Copy;
-use hexdel::{DVec2, Mesher, Method, Outcome, PointId, SessionError, TemplateSession, VertexId, generate};
+use hexdel::optimize::triangle_fits;
+use hexdel::{
+    DVec2, Mesher, Method, Outcome, PointId, SessionError, Size, SizeError, TemplateSession, VertexId,
+    generate,
+};
 use proptest::prelude::*;
 
 fn points(n: usize, seed: u64) -> Vec<DVec2> {
@@ -44,6 +48,9 @@ fn check(session: &TemplateSession) {
         made.points.iter().map(|&(id, v)| (id, made.mesh.vertices[v.index()])).collect();
     assert_eq!(there, session.points().collect::<Vec<_>>());
     assert_eq!(session.counts(), [there.len(), made.mesh.vertices.len(), made.mesh.triangles.len()]);
+    let corners = |t: &[VertexId; 3]| t.map(|v| made.mesh.vertices[v.index()]);
+    let fits = |t: &[VertexId; 3]| session.size().is_none_or(|size| triangle_fits(size, corners(t)));
+    assert!(made.mesh.triangles.iter().all(fits), "an edge is too long");
 }
 
 /// Asserts that a call is refused and has changed nothing.
@@ -63,6 +70,9 @@ enum Call {
     Insert(f64, f64),
     Near(usize, f64, f64),
     Remove(usize),
+    Size(Option<f64>),
+    Point(f64, f64, f64),
+    Refine(f64, f64),
     Undo,
     Grow,
 }
@@ -72,6 +82,9 @@ fn call() -> impl Strategy<Value = Call> {
         8 => (-1.1..1.1, -1.0..1.0).prop_map(|(x, y)| Call::Insert(x, y)),
         3 => (0..100_usize, 0.0..6.3, 1.0..6.0).prop_map(|(i, a, e)| Call::Near(i, a, e)),
         5 => (0..100_usize).prop_map(Call::Remove),
+        1 => prop::option::of(0.1..1.0).prop_map(Call::Size),
+        2 => (-1.1..1.1, -1.0..1.0, 0.02..0.5).prop_map(|(x, y, h)| Call::Point(x, y, h)),
+        1 => (-0.9..0.9, -0.8..0.8).prop_map(|(x, y)| Call::Refine(x, y)),
         3 => Just(Call::Undo),
         1 => Just(Call::Grow),
     ]
@@ -87,6 +100,12 @@ fn run(session: &mut TemplateSession, call: &Call) -> Result<Outcome, SessionErr
             session.insert(at + DVec2::from_angle(angle) * 10_f64.powf(-exponent))
         }
         Call::Remove(i) => session.remove(&[pick(i).map_or(PointId(7), |p| p.0)]),
+        Call::Size(h) => session.set_size(h.map(|h| Size::constant(h).unwrap())),
+        Call::Point(x, y, h) => {
+            let now = session.size().cloned().unwrap_or_else(Size::unlimited);
+            session.set_size(Some(now.and_points(&[(DVec2::new(x, y), h)]).unwrap()))
+        }
+        Call::Refine(x, y) => session.refine_box(DVec2::new(x, y), DVec2::new(x + 0.1, y + 0.1), 1),
         Call::Undo => session.undo(),
         Call::Grow => session.grow(),
     }
@@ -141,6 +160,71 @@ fn one_by_one_and_back_is_as_good_as_at_once() {
     }
     check(&session);
     assert!(near(session.counts()[2], at_once(&session)), "{:?} {}", session.counts(), at_once(&session));
+}
+
+/// A size at two points, around a point and none.
+fn sizes() -> [Option<Size>; 3] {
+    let points = [(DVec2::new(0.2, 0.3), 0.01), (DVec2::new(0.8, 0.6), 0.02)];
+    let near = Size::unlimited().and_points(&points).unwrap();
+    [Some(near), Some(Size::constant(0.05).unwrap()), None]
+}
+
+#[test]
+fn sizes_that_come_and_go_are_as_good_as_at_once() {
+    let all = points(100, 4);
+    let mesher = Mesher::new().domain_radius(1.5);
+    let mut session = TemplateSession::new(&all, &mesher).unwrap();
+    let near = |a: usize, b: usize| (a as f64 / b as f64 - 1.0).abs() < 0.1;
+    for size in sizes().into_iter().chain(sizes().into_iter().rev()) {
+        session.set_size(size.clone()).unwrap();
+        check(&session);
+        let mut once = session.clone();
+        once.renew().unwrap();
+        check(&once);
+        assert!(near(session.counts()[2], once.counts()[2]), "{:?} {:?}", session.counts(), once.counts());
+    }
+    let sized = sizes().into_iter().flatten().next().unwrap();
+    let session = TemplateSession::new(&all, &mesher.clone().size(sized.clone())).unwrap();
+    check(&session);
+    let made = mesher.method(Method::Templates).size(sized).triangulate(&all).unwrap();
+    assert!(
+        near(session.counts()[2], made.mesh.triangles.len()),
+        "{:?} {}",
+        session.counts(),
+        made.mesh.triangles.len()
+    );
+}
+
+#[test]
+fn sizes_hold_while_points_come_and_go() {
+    let mut session = TemplateSession::new(&points(60, 9), &Mesher::new().domain_radius(1.5)).unwrap();
+    let [size, ..] = sizes();
+    session.set_size(size).unwrap();
+    for id in 0..60 {
+        session.remove(&[PointId(id)]).unwrap();
+        check(&session);
+    }
+    for p in points(20, 10) {
+        session.insert(p).unwrap();
+        check(&session);
+    }
+}
+
+#[test]
+fn a_lattice_of_which_half_goes_is_as_good_as_at_once() {
+    for side in [10, 16, 24] {
+        let all = generate::generate(generate::Kind::Grid, side * side, 0);
+        let mut session = TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap();
+        session.insert_all(&all).unwrap();
+        for i in (0..side * side).filter(|i| (i / side + i) % 2 == 0) {
+            session.remove(&[PointId(i as u64)]).unwrap();
+        }
+        check(&session);
+        let left = session.counts()[2];
+        session.renew().unwrap();
+        let once = session.counts()[2];
+        assert!(left as f64 <= 1.1 * once as f64, "{left} triangles, {once} at once");
+    }
 }
 
 #[test]
@@ -203,6 +287,12 @@ fn bad_calls_are_refused_and_change_nothing() {
     assert!(matches!(insert(&[first + DVec2::new(1e-15, 0.0)]), SessionError::TooClose { .. }));
     assert!(matches!(insert(&[inside, inside + 1e-15]), SessionError::TooClose { .. }));
     assert!(matches!(insert(&[DVec2::new(0.0, 0.866)]), SessionError::AtRim { .. }));
+    let size = refused(&mut session, |s| s.set_size(Some(Size::constant(1e-17).unwrap())));
+    assert!(matches!(size, SessionError::Size(SizeError::BelowResolution { .. })), "{size}");
+    let size = refused(&mut session, |s| s.set_size(Some(Size::constant(1e-9).unwrap())));
+    assert!(matches!(size, SessionError::Size(SizeError::TooMany { .. })), "{size}");
+    let size = refused(&mut session, |s| s.refine_box(DVec2::ZERO, DVec2::splat(0.1), 200));
+    assert!(matches!(size, SessionError::Size(_)), "{size}");
     let unknown = refused(&mut session, |s| s.remove(&[PointId(0), PointId(9)]));
     assert_eq!(unknown, SessionError::UnknownPoint { id: PointId(9) });
     let twice = refused(&mut session, |s| s.remove(&[PointId(1), PointId(1)]));

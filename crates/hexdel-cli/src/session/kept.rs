@@ -52,14 +52,6 @@ impl Kept {
         })
     }
 
-    /// The session for what only compact ones have.
-    pub(super) fn compact(&mut self) -> Result<&mut Session, Refusal> {
-        match self {
-            Self::Compact(session) => Ok(session),
-            Self::Templates(_) => Err("sessions of templates know no sizes".into()),
-        }
-    }
-
     pub(super) fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
         of_either!(self, session => session.insert_all(points))
     }
@@ -68,8 +60,16 @@ impl Kept {
         of_either!(self, session => session.remove(ids))
     }
 
-    pub(super) fn set_size(&mut self, size: Option<Size>) -> Result<Outcome, Refusal> {
-        Ok(self.compact()?.set_size(size)?)
+    pub(super) fn size(&self) -> Option<&Size> {
+        of_either!(self, session => session.size())
+    }
+
+    pub(super) fn set_size(&mut self, size: Option<Size>) -> Result<Outcome, SessionError> {
+        of_either!(self, session => session.set_size(size))
+    }
+
+    pub(super) fn refine_box(&mut self, a: DVec2, b: DVec2, halvings: u8) -> Result<Outcome, SessionError> {
+        of_either!(self, session => session.refine_box(a, b, halvings))
     }
 
     pub(super) fn grow(&mut self) -> Result<Outcome, SessionError> {

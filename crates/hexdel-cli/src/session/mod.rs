@@ -47,7 +47,7 @@ pub(crate) struct Args {
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]
     brief: bool,
-    /// compact, or templates: many triangles, no sizes [default: compact]
+    /// compact, or templates: many triangles [default: compact]
     #[arg(long, value_enum, default_value_t, hide_possible_values = true, hide_default_value = true)]
     method: SessionMethod,
 }
@@ -146,10 +146,10 @@ impl Talk {
             }
             Command::Remove(ids) => session.remove(&ids.into_iter().map(PointId).collect::<Vec<_>>())?,
             Command::Size(size) => {
-                let size = changed(session.compact()?.size().cloned(), size)?;
+                let size = changed(session.size().cloned(), size)?;
                 session.set_size(size)?
             }
-            Command::Refine(a, b, halvings) => session.compact()?.refine_box(a, b, halvings)?,
+            Command::Refine(a, b, halvings) => session.refine_box(a, b, halvings)?,
             Command::Grow => session.grow()?,
             Command::Undo => session.undo()?,
             Command::Points => return Ok(points(session)),

@@ -56,6 +56,8 @@ pub struct Changes {
     tiles: BTreeMap<(u8, TileId), Planes>,
     /// Points that were put elsewhere; none for those that were not there.
     sites: BTreeMap<u32, Option<Site>>,
+    /// What was wanted in tiles where that has changed.
+    pub(super) wanted: BTreeMap<(u8, TileId), u64>,
 }
 
 /// Why a grid is not one that points left behind.
@@ -103,6 +105,7 @@ impl Refiner {
         }
         let lacking = self.gather_needed();
         debug_assert_eq!(lacking, None, "every rule holds");
+        debug_assert!(self.wanted.is_empty(), "nothing is wanted before the first change");
         self.live = Some(Changes::default());
     }
 
@@ -123,12 +126,31 @@ impl Refiner {
     ///
     /// In proportion to the tiles that change, and to the number of levels.
     pub fn exchange(&mut self, gone: &[usize], points: &[DVec2]) -> Result<(), RefineError> {
+        self.exchange_and_lift(gone, points, false)
+    }
+
+    /// The same with all points put in anew, so that those rise which hold each other
+    /// down over any distance.
+    ///
+    /// # Errors
+    ///
+    /// As [`exchange`](Self::exchange).
+    ///
+    /// # Complexity
+    ///
+    /// That of putting all points in.
+    pub fn exchange_all(&mut self, gone: &[usize], points: &[DVec2]) -> Result<(), RefineError> {
+        self.exchange_and_lift(gone, points, true)
+    }
+
+    fn exchange_and_lift(&mut self, gone: &[usize], points: &[DVec2], all: bool) -> Result<(), RefineError> {
         if !gone.is_empty() {
             let gone: Vec<u32> = gone.iter().map(|&i| self.sites.ids()[i]).collect();
             for &id in &gone {
                 self.take_out(id);
             }
-            self.lift_around(&gone)?;
+            let lifted = if all { self.all_there() } else { self.around(&gone) };
+            self.lift(lifted)?;
         }
         if points.is_empty() {
             return Ok(());
@@ -154,9 +176,8 @@ impl Refiner {
         self.changed(site.level, tile, 1 << bit);
     }
 
-    /// Puts the points anew that others, which are gone, may have held down.
-    fn lift_around(&mut self, gone: &[u32]) -> Result<(), RefineError> {
-        let lifted = self.around(gone);
+    /// Puts points anew: those that others, which are gone, may have held down.
+    fn lift(&mut self, lifted: Vec<u32>) -> Result<(), RefineError> {
         for &id in &lifted {
             self.take_out(id);
         }
@@ -167,6 +188,13 @@ impl Refiner {
         }
         self.settle(lifted, &Unwatched)?;
         self.close(&Unwatched)
+    }
+
+    /// All points that are there, ascending.
+    fn all_there(&self) -> Vec<u32> {
+        let mut all: Vec<u32> = self.sites.ids().iter().copied().filter(|&id| self.is_there(id)).collect();
+        all.sort_unstable();
+        all
     }
 
     /// The points that others may have held down: no deeper than one of them,
@@ -232,6 +260,11 @@ impl Refiner {
         self.sites.of_tile(level, tile).map(|id| self.occupant_at(id))
     }
 
+    /// The same for what has changed since [`take_changes`](Self::take_changes) was asked.
+    pub fn differences_so_far(&self) -> Vec<(u8, TileId, u64)> {
+        self.live.as_ref().map_or_else(Vec::new, |changes| self.differences(changes))
+    }
+
     /// The tiles in which something differs from what it was before `changes`,
     /// and the hexagons there that were or are subdivided or occupied
     /// otherwise. In order.
@@ -282,6 +315,8 @@ impl Refiner {
             let tile = self.grid.tiles_mut().get_mut(level, id);
             (tile.subdivided, tile.needed, tile.marks) = (planes.subdivided, planes.needed, planes.marks);
         }
+        self.wanted.extend(&changes.wanted);
+        self.wanted.retain(|_, bits| *bits != 0);
         for (&id, site) in &changes.sites {
             if let Some(site) = site {
                 *self.sites.get_mut(id) = *site;
@@ -333,7 +368,7 @@ impl Refiner {
     ) -> Option<(TileId, u64)> {
         let own = super::in_quadrant(u16::MAX, quadrant);
         let old = self.grid.tiles().get(level, id).needed;
-        let new = old & !own | bits;
+        let new = old & !own | bits | own & self.wanted_in(level, id);
         if old == new {
             return None;
         }
@@ -451,7 +486,7 @@ impl Refiner {
 /// where [`Lattice::locate`] is exact.
 const FARTHEST: u64 = 1 << 50;
 
-fn is_far(hex: Hex) -> bool {
+pub(super) fn is_far(hex: Hex) -> bool {
     hex.q.unsigned_abs().max(hex.r.unsigned_abs()) > FARTHEST
 }
 

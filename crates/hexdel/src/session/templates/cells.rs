@@ -182,6 +182,27 @@ impl Cells {
         self.by_page[page as usize].triangles = renewed;
     }
 
+    /// What is new since something was replaced.
+    pub(super) fn fresh_since(&self, replaced: &Replaced) -> Fresh {
+        let mut fresh = Fresh::default();
+        for (&page, old) in &replaced.cells {
+            let new = &self.by_page[page as usize];
+            let mut known: Vec<u64> = old.triangles.iter().map(|t| t.serial).collect();
+            known.sort_unstable();
+            let is_new = |t: &&Owned| known.binary_search(&t.serial).is_err();
+            fresh.triangles.extend(new.triangles.iter().filter(is_new).map(|t| t.corners));
+            for bit in ones(old.places & new.places) {
+                if let (Some(was), Some(is)) = (old.rank(bit), new.rank(bit))
+                    && old.serials[was] == new.serials[is]
+                    && old.at[was] != new.at[is]
+                {
+                    fresh.moved.push(page * KeptDual::PAGE + bit);
+                }
+            }
+        }
+        fresh
+    }
+
     /// Puts back what a change replaced, and returns what it had put there.
     pub(super) fn put_back(&mut self, replaced: Replaced) -> Replaced {
         let mut undone = Replaced::default();

@@ -19,14 +19,22 @@ mod saved;
 use super::{Outcome, PointId, SessionError, SessionMesh, UNDO};
 use crate::mesher::{Mesher, Method};
 use crate::placement::{CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
+use crate::size::{Size, SizeError};
+use crate::sized::check_count;
 use cells::{Replaced, Serials};
 use grown::{Grown, Step, Stuck, certified};
-use hexdel_geom::{Certificate, DVec2, VertexId, closest_pair};
+use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, closest_pair};
 use hexdel_grid::{Address, Grid, Lattice};
+use hexdel_refine::RefineError;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// Steps of level 0 to the corners of an empty domain.
 const STEPS: u32 = 3;
+
+/// One of so many points goes, and all are put in anew: over more than a few hexagons
+/// they may hold each other down.
+const LIFT_SHARE: usize = 16;
 
 /// A mesh of [`Method::Templates`] that changes.
 ///
@@ -49,7 +57,7 @@ const STEPS: u32 = 3;
 ///
 /// Those of a [`Session`](super::Session): after every call the mesh is a
 /// Delaunay mesh of the domain, here with angles of 43.9 to 90 degrees, with every
-/// point a vertex bit for bit. A call that fails changes nothing.
+/// point a vertex bit for bit and every edge within the size. A call that fails changes nothing.
 #[derive(Clone, Debug)]
 pub struct TemplateSession {
     grown: Grown,
@@ -57,6 +65,8 @@ pub struct TemplateSession {
     /// removed ones.
     points: Vec<Option<u32>>,
     present: usize,
+    /// Points that have gone since all were put in.
+    missed: usize,
     /// What undoes the last calls, the last one at the end.
     history: VecDeque<Undo>,
 }
@@ -67,6 +77,8 @@ struct Undo {
     mesh: Before,
     /// Points and their places in the refiner's order before.
     points: Vec<(PointId, Option<u32>)>,
+    /// Points that had gone since all were put in.
+    missed: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -88,12 +100,12 @@ impl TemplateSession {
             return Err(SessionError::InvalidDomain { centre, radius });
         }
         let lattice = Lattice::new(centre, radius / f64::from(STEPS));
-        let grown = Grown::new(lattice, STEPS, (&[], &[]), Serials::default())?;
-        Ok(Self { grown, points: Vec::new(), present: 0, history: VecDeque::new() })
+        let grown = Grown::new(lattice, STEPS, (&[], &[]), (Serials::default(), None))?;
+        Ok(Self { grown, points: Vec::new(), present: 0, missed: 0, history: VecDeque::new() })
     }
 
     /// The mesh that a mesher makes of points, as a session. Its method is
-    /// taken to be [`Method::Templates`], with coarsening and without a size.
+    /// taken to be [`Method::Templates`], with coarsening.
     ///
     /// # Errors
     ///
@@ -103,10 +115,14 @@ impl TemplateSession {
         let (lattice, steps) = mesher.clone().method(Method::Templates).coarsest_lattice(points)?;
         check_distinct(points, 0)?;
         let ids: Vec<PointId> = (0..points.len() as u64).map(PointId).collect();
-        let grown =
-            mesher.on_threads(|| Ok(Grown::new(lattice, steps, (&ids, points), Serials::default())))??;
+        let size = mesher.for_session().1.map(Arc::new);
+        if let Some(size) = &size {
+            check_size(size, lattice.origin(), f64::from(steps) * lattice.spacing(0))?;
+        }
+        let kept = (Serials::default(), size);
+        let grown = mesher.on_threads(|| Ok(Grown::new(lattice, steps, (&ids, points), kept)))??;
         let orders = (0..points.len() as u32).map(Some).collect();
-        Ok(Self { grown, points: orders, present: points.len(), history: VecDeque::new() })
+        Ok(Self { grown, points: orders, present: points.len(), missed: 0, history: VecDeque::new() })
     }
 
     /// Puts a point in.
@@ -138,13 +154,14 @@ impl TemplateSession {
         check_distinct(points, before as u64)?;
         let ids: Vec<PointId> = (before as u64..).map(PointId).take(points.len()).collect();
         let first = self.grown.refiner.site_ids().len() as u32;
-        match self.grown.exchange(&[], (&ids, points)) {
+        match self.grown.exchange((&[], false), (&ids, points)) {
             Ok(step) => {
                 self.points.extend((first..).map(Some).take(points.len()));
                 self.present += points.len();
                 let undo = ids.iter().map(|&id| (id, None)).collect();
                 Ok(self.done(step, undo, ids))
             }
+            Err(Stuck::Levels(RefineError::TooFine { .. })) => Err(grown::too_many().into()),
             Err(Stuck::Levels(error)) => {
                 let (_, mut all) = self.all_points();
                 all.extend_from_slice(points);
@@ -154,7 +171,12 @@ impl TemplateSession {
                 let (mut all_ids, mut all) = self.all_points();
                 all_ids.extend_from_slice(&ids);
                 all.extend_from_slice(points);
-                self.mesh_anew(self.grown.lattice(), self.grown.steps(), (all_ids, all), ids)
+                self.mesh_anew(
+                    (self.grown.lattice(), self.grown.steps()),
+                    self.grown.size.clone(),
+                    (all_ids, all),
+                    ids,
+                )
             }
         }
     }
@@ -190,7 +212,9 @@ impl TemplateSession {
     ///
     /// # Complexity
     ///
-    /// In proportion to what changes and to the number of levels.
+    /// In proportion to what changes and to the number of levels. When a sixteenth of the
+    /// points has gone since the last time, all others are put in anew; the whole is meshed
+    /// anew then if the rim has been refined.
     pub fn remove(&mut self, ids: &[PointId]) -> Result<Outcome, SessionError> {
         let mut sorted: Vec<PointId> = ids.to_vec();
         sorted.sort_unstable();
@@ -201,23 +225,82 @@ impl TemplateSession {
         }
         let undo: Vec<_> = sorted.iter().map(|&id| (id, self.order(id))).collect();
         let gone: Vec<usize> = undo.iter().filter_map(|u| u.1).map(|order| order as usize).collect();
-        if let Ok(step) = self.grown.exchange(&gone, (&[], &[])) {
+        let missed = self.missed + gone.len();
+        let all = missed * LIFT_SHARE >= self.present;
+        // Edges along the rim may be longer now: that takes another lattice.
+        let lattice = if all { self.coarsest() } else { (self.grown.lattice(), self.grown.steps()) };
+        if lattice.1 == self.grown.steps()
+            && let Ok(step) = self.grown.exchange((&gone, all), (&[], &[]))
+        {
             for id in sorted {
                 self.points[id.0 as usize] = None;
             }
             self.present -= gone.len();
-            return Ok(self.done(step, undo, Vec::new()));
+            let before = std::mem::replace(&mut self.missed, if all { 0 } else { missed });
+            let outcome = self.done(step, undo, Vec::new());
+            self.history.back_mut().into_iter().for_each(|undo| undo.missed = before);
+            return Ok(outcome);
         }
         let (mut left, mut all) = (Vec::new(), Vec::new());
         for (id, at) in self.points().filter(|(id, _)| sorted.binary_search(id).is_err()) {
             left.push(id);
             all.push(at);
         }
-        self.mesh_anew(self.grown.lattice(), self.grown.steps(), (left, all), Vec::new())
+        self.mesh_anew(lattice, self.grown.size.clone(), (left, all), Vec::new())
     }
 
     fn order(&self, id: PointId) -> Option<u32> {
         self.points.get(usize::try_from(id.0).ok()?).copied().flatten()
+    }
+
+    /// How long edges may be.
+    pub fn size(&self) -> Option<&Size> {
+        self.grown.size.as_deref()
+    }
+
+    /// Wants edges to be as short as a size says, or as long as the points allow.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Size`].
+    ///
+    /// # Complexity
+    ///
+    /// A look at every edge, and work in proportion to what changes. Where edges along
+    /// the rim are too long, or need no longer be as short as a size before wanted them, the
+    /// whole is meshed anew.
+    pub fn set_size(&mut self, size: Option<Size>) -> Result<Outcome, SessionError> {
+        if let Some(size) = &size {
+            let (centre, radius) = self.domain();
+            check_size(size, centre, radius)?;
+            check_count(&self.grown.mesh().0, size)?;
+        }
+        let size = size.map(Arc::new);
+        if self.grown.frees_rim(size.as_deref()) {
+            return self.mesh_anew(self.coarsest(), size, self.all_points(), Vec::new());
+        }
+        match self.grown.set_size(size.clone()) {
+            Ok(step) => Ok(self.done(step, Vec::new(), Vec::new())),
+            Err(Stuck::Levels(_)) => Err(grown::too_many().into()),
+            Err(Stuck::Rim | Stuck::Unsettled) => {
+                let anew = (self.grown.lattice(), self.grown.steps());
+                self.mesh_anew(anew, size, self.all_points(), Vec::new())
+            }
+        }
+    }
+
+    /// Cuts the longest edge wanted in a box to `2^-halvings` of the longest that is
+    /// there, and leaves the rest as it is but for a transition.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Size`].
+    pub fn refine_box(&mut self, a: DVec2, b: DVec2, halvings: u8) -> Result<Outcome, SessionError> {
+        let (low, high) = (a.min(b), a.max(b));
+        let longest = longest_edge_in(&self.grown.mesh().0, low, high);
+        let size = (0..halvings).fold(longest, |size, _| 0.5 * size);
+        let now = self.size().cloned().unwrap_or_else(Size::unlimited);
+        self.set_size(Some(now.and_box(low, high, size)?))
     }
 
     /// Doubles the radius of the domain. The whole is meshed anew.
@@ -232,7 +315,7 @@ impl TemplateSession {
             return Err(SessionError::InvalidDomain { centre, radius: 2.0 * radius });
         }
         let lattice = Lattice::new(centre, 2.0 * self.grown.lattice().spacing(0));
-        self.mesh_anew(lattice, self.grown.steps(), self.all_points(), Vec::new())
+        self.mesh_anew((lattice, self.grown.steps()), self.grown.size.clone(), self.all_points(), Vec::new())
     }
 
     /// Meshes all points anew in the same domain, which takes away what points
@@ -246,12 +329,17 @@ impl TemplateSession {
     ///
     /// That of a mesh made at once.
     pub fn renew(&mut self) -> Result<Outcome, SessionError> {
+        self.mesh_anew(self.coarsest(), self.grown.size.clone(), self.all_points(), Vec::new())
+    }
+
+    /// The lattice with the longest edges along the rim, and its steps.
+    fn coarsest(&self) -> (Lattice, u32) {
         let (mut lattice, mut steps) = (self.grown.lattice(), self.grown.steps());
         while steps.is_multiple_of(2) && steps > STEPS {
             lattice = Lattice::new(lattice.origin(), 2.0 * lattice.spacing(0));
             steps /= 2;
         }
-        self.mesh_anew(lattice, steps, self.all_points(), Vec::new())
+        (lattice, steps)
     }
 
     /// Takes the last call back that is not taken back yet; 256 are remembered,
@@ -282,18 +370,19 @@ impl TemplateSession {
             self.points[id.0 as usize] = order;
         }
         self.present = self.points.iter().flatten().count();
+        self.missed = undo.missed;
         Ok(Outcome { points: Vec::new(), delta, remeshed })
     }
 
     /// Meshes points anew, those that are there and new ones.
     fn mesh_anew(
         &mut self,
-        lattice: Lattice,
-        steps: u32,
+        (lattice, steps): (Lattice, u32),
+        size: Option<Arc<Size>>,
         (ids, points): (Vec<PointId>, Vec<DVec2>),
         new: Vec<PointId>,
     ) -> Result<Outcome, SessionError> {
-        let grown = Grown::new(lattice, steps, (&ids, &points), self.grown.cells.serials)?;
+        let grown = Grown::new(lattice, steps, (&ids, &points), (self.grown.cells.serials, size))?;
         let old = std::mem::replace(&mut self.grown, grown);
         let delta = self.grown.cells.delta_from(&old.cells);
         self.points.resize(self.points.len() + new.len(), None);
@@ -304,14 +393,15 @@ impl TemplateSession {
         let before = std::mem::replace(&mut self.points, orders);
         let points = (0..).map(PointId).zip(before).collect();
         self.present = ids.len();
-        self.remember(Undo { mesh: Before::Whole(Box::new(old)), points });
+        let missed = std::mem::take(&mut self.missed);
+        self.remember(Undo { mesh: Before::Whole(Box::new(old)), points, missed });
         Ok(Outcome { points: new, delta, remeshed: true })
     }
 
     /// Ends a call.
     fn done(&mut self, step: Step, undo: Vec<(PointId, Option<u32>)>, points: Vec<PointId>) -> Outcome {
         let delta = self.grown.delta(&step);
-        self.remember(Undo { mesh: Before::Step(Box::new(step)), points: undo });
+        self.remember(Undo { mesh: Before::Step(Box::new(step)), points: undo, missed: self.missed });
         Outcome { points, delta, remeshed: false }
     }
 
@@ -389,6 +479,23 @@ impl TemplateSession {
     pub fn certificate(&self) -> Certificate {
         certified(&self.grown.mesh().0, &self.all_points().1)
     }
+}
+
+/// Refuses sizes that coordinates do not resolve in a domain.
+fn check_size(size: &Size, centre: DVec2, radius: f64) -> Result<(), SizeError> {
+    size.check(finest_spacing(DVec2::splat(centre.abs().max_element() + radius)))
+}
+
+/// Length of the longest edge of triangles that may touch an axis-parallel box.
+fn longest_edge_in(mesh: &TriMesh, low: DVec2, high: DVec2) -> f64 {
+    let mut longest: f64 = 0.0;
+    for t in &mesh.triangles {
+        let [a, b, c] = t.map(|v| mesh.vertices[v.index()]);
+        if a.min(b).min(c).cmple(high).all() && a.max(b).max(c).cmpge(low).all() {
+            longest = longest.max(a.distance(b)).max(b.distance(c)).max(c.distance(a));
+        }
+    }
+    longest
 }
 
 /// Whether a place is inside of the hexagon with corners east and west.

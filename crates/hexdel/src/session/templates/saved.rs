@@ -2,15 +2,19 @@
 
 use super::cells::Serials;
 use super::grown::{Grown, certified};
-use super::{PointId, TemplateSession};
+use super::{PointId, TemplateSession, check_size};
 use crate::placement::{FINEST, MAX_COORDINATE, finest_spacing};
 use crate::session::SessionError;
+use crate::size::{Size, SizeError};
+use crate::sized;
 use hexdel_classify::Domain;
 use hexdel_geom::DVec2;
 use hexdel_grid::{Address, Hex, Lattice};
+use hexdel_optimize::SIZE_TOLERANCE;
 use hexdel_refine::{Refiner, RuleSet};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// The version of the format.
 const VERSION: u32 = 1;
@@ -38,6 +42,14 @@ struct Document {
     triangles: Vec<(u64, u64)>,
     /// The last ones given out.
     last: (u64, u64),
+    /// Points that have gone since all were put in.
+    #[serde(default)]
+    missed: u32,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    size: Option<Size>,
+    /// The hexagons that are subdivided for the size, as in `tiles`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    wanted: Vec<(u8, i64, i64, u64)>,
 }
 
 impl TemplateSession {
@@ -51,8 +63,11 @@ impl TemplateSession {
     ///
     /// # Errors
     ///
-    /// [`SessionError::Unreadable`] if it cannot be written.
+    /// [`SessionError::CannotSave`] if the size is given by a function.
     pub fn to_ron(&self) -> Result<String, SessionError> {
+        if !self.size().is_none_or(Size::can_be_saved) {
+            return Err(SessionError::CannotSave);
+        }
         let Grown { refiner, dual, cells, .. } = &self.grown;
         let (grid, lattice) = (refiner.grid(), self.grown.lattice());
         let mut tiles = Vec::new();
@@ -67,6 +82,9 @@ impl TemplateSession {
             moved.push((at.level, at.hex.q, at.hex.r, to));
         }
         moved.sort_unstable_by_key(|m| (m.0, m.1, m.2));
+        let wanted = refiner.wanted().map(|(level, first, bits)| (level, first.q, first.r, bits));
+        let mut wanted: Vec<(u8, i64, i64, u64)> = wanted.collect();
+        wanted.sort_unstable();
         let pages = self.grown.pages();
         let of = |page: &u32| &cells.by_page[*page as usize];
         let point = |(id, at): (PointId, DVec2)| {
@@ -85,6 +103,9 @@ impl TemplateSession {
             vertices: runs(pages.iter().flat_map(|p| of(p).serials.iter().copied())),
             triangles: runs(pages.iter().flat_map(|p| of(p).triangles.iter().map(|t| t.serial))),
             last: (cells.serials.vertex, cells.serials.triangle),
+            missed: self.missed as u32,
+            size: self.size().cloned(),
+            wanted,
         };
         ron::to_string(&document).map_err(|e| SessionError::Unreadable { message: e.to_string() })
     }
@@ -102,20 +123,36 @@ impl TemplateSession {
         let lattice = Lattice::new(document.centre, document.spacing);
         let tiles = document.tiles.iter().map(|&(level, q, r, bits)| (level, Hex::new(q, r), bits));
         let sites: Vec<_> = document.points.iter().map(|p| (p.1, Some(p.2))).collect();
-        let refiner = Refiner::restored(lattice, RuleSet::extended(), tiles, &sites)
+        let mut refiner = Refiner::restored(lattice, RuleSet::extended(), tiles, &sites)
             .map_err(|e| unreadable(&e.to_string()))?;
+        let wanted = document.wanted.iter().map(|&(level, q, r, bits)| (level, Hex::new(q, r), bits));
+        refiner.restore_wanted(wanted).map_err(|e| unreadable(&e.to_string()))?;
         if Domain::around(refiner.grid(), 0).is_none_or(|around| around.radius > document.steps) {
             return Err(unreadable("hexagons beyond the rim"));
         }
         let ids: Vec<PointId> = document.points.iter().map(|p| PointId(p.0)).collect();
         let mut grown = Grown::of(refiner, document.steps, &ids, Serials::default());
         document.restore_cells(&mut grown)?;
+        grown.size = document.size.clone().map(Size::checked).transpose()?.map(Arc::new);
         let points: Vec<DVec2> = document.points.iter().map(|p| p.1).collect();
         let certificate = certified(&grown.mesh().0, &points);
         if !certificate.holds() {
             return Err(SessionError::NotCertified { certificate: Box::new(certificate) });
         }
-        Ok(Self { grown, points: orders, present: points.len(), history: VecDeque::new() })
+        if let Some(size) = &grown.size {
+            check_size(size, document.centre, document.spacing * f64::from(document.steps))?;
+            let (ratio, at, length) = sized::worst(&grown.mesh().0, size.as_ref());
+            if ratio > 1.0 + SIZE_TOLERANCE {
+                return Err(SizeError::Unreached { at, length }.into());
+            }
+        }
+        Ok(Self {
+            grown,
+            points: orders,
+            present: points.len(),
+            missed: document.missed as usize,
+            history: VecDeque::new(),
+        })
     }
 }
 
