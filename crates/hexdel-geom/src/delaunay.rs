@@ -87,9 +87,10 @@ pub struct FlipReport {
 /// circumcircle of a neighbouring triangle, in exact arithmetic.
 ///
 /// A vertex is moved only if `free` says so, and by no more than 16 units in
-/// the last place of the largest coordinate around it at a time. Triangles keep
-/// their number; neither a flip nor a nudge takes a triangle out of `bounds`
-/// (up to the certificate's tolerance and rounding) or turns it over.
+/// the last place at a time: of the largest coordinate around it, or of the mesh
+/// where that is not enough. Triangles keep their number; neither a flip nor a
+/// nudge takes a triangle out of `bounds` (up to the certificate's tolerance and
+/// rounding) or turns it over.
 ///
 /// # Errors
 ///
@@ -138,8 +139,9 @@ pub fn restore_constrained_delaunay(
     let budget = 64 * queue.len() + 64 * mesh.triangles.len().min(1 << 20);
     let rings = Rings { incidence: &incidence, changed: FxHashMap::default() };
     let spoiling_moves = 1000 + queue.len();
+    let largest = if queue.is_empty() { 0.0 } else { largest_coordinate(&mesh.vertices) };
     let queue = queue.into();
-    let mut repair = Repair { mesh, bounds, free, flippable, rings, queue, report, spoiling_moves };
+    let mut repair = Repair { mesh, bounds, free, flippable, rings, queue, report, largest, spoiling_moves };
     for _ in 0..budget {
         let Some(ends) = repair.queue.pop_front() else {
             break;
@@ -150,6 +152,10 @@ pub fn restore_constrained_delaunay(
         Some(quad) => Err(repair.stuck(&quad)),
         None => Ok(repair.report),
     }
+}
+
+fn largest_coordinate(vertices: &[DVec2]) -> f64 {
+    vertices.iter().fold(0.0, |largest, v| v.abs().max_element().max(largest))
 }
 
 /// Vertices looked at by one thread at a time.
@@ -244,6 +250,8 @@ struct Repair<'a, F, G> {
     /// Contains every edge that is not Delaunay.
     queue: VecDeque<[u32; 2]>,
     report: FlipReport,
+    /// The largest coordinate of the mesh.
+    largest: f64,
     /// Moves left that make other edges worse. The others bring the number of
     /// edges that are not Delaunay down and need no limit.
     spoiling_moves: usize,
@@ -336,10 +344,11 @@ impl<F: Fn(VertexId) -> bool, G: Fn([VertexId; 2]) -> bool> Repair<'_, F, G> {
         let movable: Vec<u32> =
             [b, d, a, c].into_iter().filter(|&v| (self.free)(VertexId::new(v as usize))).collect();
         let stars: Vec<Star> = movable.iter().map(|&v| self.star(v)).collect();
-        let step = quad.corners.iter().fold(0.0, |m, &v| self.at(v).abs().max_element().max(m));
-        let step = ulp(step);
+        let step = ulp(largest_coordinate(&quad.corners.map(|v| self.at(v))));
+        // Places have been rounded where coordinates are larger than here.
+        let reach = (ulp(self.largest) / step).max(1.0);
         let mut best: Option<(Vec<[u32; 2]>, u32, DVec2)> = None;
-        for offset in offsets() {
+        for offset in offsets(reach) {
             for (&v, star) in movable.iter().zip(&stars) {
                 let to = self.at(v) + offset * step;
                 let Some(spoilt) = self.spoilt_by(quad, v, to, star) else {
@@ -420,19 +429,22 @@ struct Star {
 }
 
 /// Displacements to try, in units in the last place, shortest first: all of a
-/// square of 7 by 7, then the eight compass directions out to 16. Four rounded
+/// square of 7 by 7, then the eight compass directions out to 16 times `reach`. Four rounded
 /// corners put a fifth of a unit to a few units between a vertex and its
-/// circle.
-fn offsets() -> impl Iterator<Item = DVec2> {
+/// circle, of the unit that they were rounded with.
+fn offsets(reach: f64) -> impl Iterator<Item = DVec2> {
     let square = (1..=3).flat_map(|r: i32| {
         (-r..=r)
             .flat_map(move |x| (-r..=r).map(move |y| [x, y]))
             .filter(move |[x, y]| x.abs().max(y.abs()) == r)
     });
-    let compass = [4, 6, 8, 12, 16].into_iter().flat_map(|r| {
-        [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]].map(|[x, y]| [r * x, r * y])
+    let near = [4.0, 6.0, 8.0, 12.0, 16.0];
+    let far = std::iter::successors(Some(32.0), |r| Some(r * 2.0)).take_while(move |r| *r <= 16.0 * reach);
+    let compass = near.into_iter().chain(far).flat_map(|r| {
+        [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]]
+            .map(|[x, y]| r * DVec2::new(x.into(), y.into()))
     });
-    square.chain(compass).map(|[x, y]| DVec2::new(x.into(), y.into()))
+    square.map(|[x, y]| DVec2::new(x.into(), y.into())).chain(compass)
 }
 
 #[cfg(test)]

@@ -116,9 +116,10 @@ impl Refiner {
         wanted: impl IntoIterator<Item = (u8, Hex, u64)>,
     ) -> Result<(), RestoreError> {
         for (level, first, bits) in wanted {
-            let found = (level < Grid::MAX_LEVELS && !is_far(first) && (first.q | first.r).trailing_zeros() >= 3)
-                .then(|| self.grid.tiles().find(level, first))
-                .flatten();
+            let found =
+                (level < Grid::MAX_LEVELS && !is_far(first) && (first.q | first.r).trailing_zeros() >= 3)
+                    .then(|| self.grid.tiles().find(level, first))
+                    .flatten();
             let id =
                 found.map(|f| f.0).filter(|&id| bits & !self.grid.tiles().get(level, id).subdivided == 0);
             let id = id.ok_or(RestoreError::OutOfRange { level, first })?;
