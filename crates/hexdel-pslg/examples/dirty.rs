@@ -2,8 +2,10 @@
 //! that each gives a valid mesh with every segment in it, or an error.
 //!
 //! ```text
-//! cargo run --release -p hexdel-pslg --example dirty [COUNT] [FIRST]
+//! cargo run --release -p hexdel-pslg --example dirty [COUNT] [FIRST] [SECONDS]
 //! ```
+//!
+//! With a budget of seconds for each graph more triangles are left out of bounds.
 
 #[path = "../tests/support/cpu.rs"]
 mod cpu;
@@ -14,6 +16,7 @@ use cpu::cpu_seconds;
 use hexdel_geom::{Pslg, Unwatched};
 use hexdel_pslg::{Options, mesh, repair, validate};
 use std::io::Write;
+use std::time::Duration;
 
 #[derive(Default)]
 struct Tally {
@@ -26,17 +29,20 @@ struct Tally {
 }
 
 fn main() -> std::io::Result<()> {
-    let mut args = std::env::args().skip(1).map(|a| a.parse::<u64>().unwrap_or(0));
-    let (count, first) = (args.next().unwrap_or(10_000), args.next().unwrap_or(0));
+    let args: Vec<f64> = std::env::args().skip(1).map(|a| a.parse().unwrap_or(0.0)).collect();
+    let whole = |i: usize, usual: u64| args.get(i).map_or(usual, |a| *a as u64);
+    let (count, first) = (whole(0, 10_000), whole(1, 0));
+    let budget = args.get(2).map(|&seconds| Duration::from_secs_f64(seconds));
+    let options = Options::new().retries(1).max_triangles(200_000).budget(budget);
     let mut out = std::io::stdout();
     let (mut clean, mut dirty) = (Tally::default(), Tally::default());
     for seed in first..first + count {
         let mut graph = support::random_graph(seed);
         graph.holes.clear();
         if validate(&graph).is_ok() {
-            one(&graph, seed, &mut clean, &mut out)?;
+            one(&graph, seed, &options, &mut clean, &mut out)?;
         } else if let Ok((mended, _)) = repair(&graph, 1e-6) {
-            one(&mended, seed, &mut dirty, &mut out)?;
+            one(&mended, seed, &options, &mut dirty, &mut out)?;
         }
     }
     for (name, mut t) in [("planar", clean), ("repaired", dirty)] {
@@ -60,7 +66,13 @@ fn main() -> std::io::Result<()> {
     Ok(())
 }
 
-fn one(graph: &Pslg, seed: u64, tally: &mut Tally, out: &mut impl Write) -> std::io::Result<()> {
+fn one(
+    graph: &Pslg,
+    seed: u64,
+    options: &Options,
+    tally: &mut Tally,
+    out: &mut impl Write,
+) -> std::io::Result<()> {
     let start = cpu_seconds();
     let valid = match validate(graph) {
         Ok(valid) => valid,
@@ -69,7 +81,7 @@ fn one(graph: &Pslg, seed: u64, tally: &mut Tally, out: &mut impl Write) -> std:
             return writeln!(out, "{seed}: {error}");
         }
     };
-    match mesh(&valid, &Options::new().retries(1).max_triangles(200_000), &Unwatched) {
+    match mesh(&valid, options, &Unwatched) {
         Ok(made) => match support::check(graph, &made) {
             Ok(()) if made.holds() => tally.good += 1,
             Ok(()) => {
