@@ -7,7 +7,7 @@ mod common;
 
 use common::{Copy, refused};
 use hexdel::geom::{Region, point_on_segment};
-use hexdel::{DVec2, Domain, Mesher, Outcome, PointId, Pslg, Session, SessionError, Size};
+use hexdel::{DVec2, Domain, Mesher, Outcome, PointId, Pslg, Session, SessionError, SessionMesh, Size};
 use proptest::prelude::*;
 
 fn fixture(name: &str) -> Pslg {
@@ -201,6 +201,33 @@ fn narrow_corners_stay_exempt() {
     assert_eq!(session.certificate().out_of_bounds, 1);
     session.remove(&ids).unwrap();
     check(&session);
+}
+
+#[test]
+fn fans_stay_in_narrow_corners() {
+    let mut graph = fixture("narrow");
+    graph.regions = vec![Region { point: DVec2::new(3.0, 1.0), attribute: 5.0, max_area: None }];
+    let mut session = Session::with_segments(&graph, &Mesher::new()).unwrap();
+    let regions = |made: &SessionMesh| made.region_of_triangle.iter().filter(|r| r.is_some()).count();
+    let at_once = Mesher::new().triangulate_pslg(&graph).unwrap();
+    let parts = at_once.region_of_triangle.iter().filter(|r| r.is_some()).count();
+    assert_eq!(regions(&session.mesh()), parts, "fans divide no region");
+    let edges = session.mesh().edges;
+    assert!(edges.iter().all(|e| e.segment.is_some() || e.boundary), "edges of fans are no segments");
+    let before = session.certificate().out_of_bounds;
+    assert!(before > 3);
+    // Inside of a fan, beside it, and far away.
+    for at in [(6.9, 3.0), (6.2, 3.0), (3.0, 1.0)] {
+        match session.insert(DVec2::from(at)) {
+            Ok(change) => {
+                check(&session);
+                session.remove(&change.points).unwrap();
+            }
+            Err(error) => assert!(matches!(error, SessionError::NoRoom { .. }), "{error}"),
+        }
+        check(&session);
+    }
+    assert_eq!(session.certificate().out_of_bounds, before);
 }
 
 #[test]

@@ -96,12 +96,12 @@ impl LiveMesh {
     }
 
     /// For each triangle, in the order of slots, the first of the parts named by a
-    /// point each that it lies in: parts end at segments.
+    /// point each that it lies in: parts end at those segments that `divides` is true of.
     ///
     /// # Complexity
     ///
     /// Linear in the mesh, and in each part.
-    pub fn parts(&self, points: &[DVec2]) -> Vec<Option<u32>> {
+    pub fn parts(&self, points: &[DVec2], divides: impl Fn(usize) -> bool) -> Vec<Option<u32>> {
         let store = &self.store;
         let mut part: Vec<Option<u32>> = vec![None; store.triangles.len()];
         for (i, &p) in points.iter().enumerate() {
@@ -112,7 +112,10 @@ impl LiveMesh {
                 }
                 part[t as usize] = Some(i as u32);
                 let tri = store.triangle(t);
-                queue.extend((0..3).filter(|&k| !tri.is_bound(k) && tri.n[k] != NONE).map(|k| tri.n[k]));
+                let is_open = |k: usize| {
+                    !tri.is_bound(k) || store.line_of_side(t, k).is_some_and(|line| !divides(line as usize))
+                };
+                queue.extend((0..3).filter(|&k| tri.n[k] != NONE && is_open(k)).map(|k| tri.n[k]));
             }
         }
         store.live_triangles().map(|t| part[t as usize]).collect()

@@ -9,9 +9,9 @@ use hexdel_geom::{Certificate, Circle, smallest_enclosing_circle};
 use hexdel_geom::{CertifyOptions, DVec2, Pslg, SegmentCheck, VertexId, certify, check_segments};
 use hexdel_optimize::live::{LiveMesh, Snapshot};
 use hexdel_optimize::{Constraints, VertexKind, kinds_of};
-use hexdel_pslg::{SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers};
+use hexdel_pslg::{Reason, SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers};
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 /// Sine of the turn up to which the sides of a domain go straight on.
@@ -22,10 +22,14 @@ const STRAIGHT: f64 = 1e-3;
 pub(super) struct Frame {
     /// The graph. The first points of the session are its points.
     pub(super) graph: Pslg,
-    /// The ends of each straight part of a segment, or of a side of the domain.
+    /// The ends of each straight part of a segment, or of a side of the domain, and
+    /// of each edge within a fan.
     pub(super) lines: Vec<[DVec2; 2]>,
     /// The segment that each of them is a part of.
     segment_of_line: Vec<Option<u32>>,
+    /// How many of the lines, the last ones, are edges of fans.
+    #[serde(default)]
+    in_fans: usize,
 }
 
 impl Frame {
@@ -35,6 +39,7 @@ impl Frame {
         self.graph.check_layout().is_ok()
             && self.segment_of_line.len() == self.lines.len()
             && self.segment_of_line.iter().all(known)
+            && self.in_fans <= self.lines.len()
             && live.segments().eq(self.lines.iter().copied())
     }
 }
@@ -86,6 +91,8 @@ struct Rows {
     on: Vec<Option<usize>>,
     /// Ends of lines, and points of the graph.
     is_point: Vec<bool>,
+    /// Lines from here on are edges of fans.
+    fans: usize,
 }
 
 impl Rows {
@@ -97,14 +104,20 @@ impl Rows {
             edges: Vec::new(),
             on: vec![None; made.mesh.vertices.len()],
             is_point: made.point_of_vertex.iter().map(Option::is_some).collect(),
+            fans: 0,
         };
         // The sides of a hexagon are no segments.
         let kept = |e: &&SegmentEdge| e.segment.is_some() || made.domain != Domain::Hexagon;
         let edges: Vec<&SegmentEdge> = made.edges.iter().filter(kept).collect();
+        let fans = fan_edges(made, &edges);
+        for end in fans.iter().flatten() {
+            rows.is_point[end.index()] = true;
+        }
+        let is_point = rows.is_point.clone();
         let goes_on = |a: &SegmentEdge, b: &SegmentEdge| {
             let [u, w] = [a, b].map(|e| (at(e.ends[1]) - at(e.ends[0])).normalize_or_zero());
-            let is_point = made.point_of_vertex[b.ends[0].index()].is_some();
-            a.segment == b.segment && a.ends[1] == b.ends[0] && !is_point && u.perp_dot(w).abs() <= STRAIGHT
+            let turns = is_point[b.ends[0].index()];
+            a.segment == b.segment && a.ends[1] == b.ends[0] && !turns && u.perp_dot(w).abs() <= STRAIGHT
         };
         for row in edges.chunk_by(|a, b| goes_on(a, b)) {
             let ends = [row[0].ends[0], row[row.len() - 1].ends[1]];
@@ -118,7 +131,16 @@ impl Rows {
             rows.segment_of_line.push(row[0].segment);
             rows.edges.extend(row.iter().map(|e| e.ends));
         }
+        rows.fans = rows.lines.len();
+        rows.lines.extend(fans.iter().map(|ends| ends.map(at)));
+        rows.segment_of_line.extend(fans.iter().map(|_| None));
+        rows.edges.extend(fans);
         rows
+    }
+
+    /// Pairs of segments too narrow for any bound between them.
+    fn wedges(&self) -> Vec<[usize; 2]> {
+        hopeless_pairs(&self.lines[..self.fans])
     }
 
     fn kinds(&self, made: &PslgTriangulation) -> Vec<VertexKind> {
@@ -186,7 +208,7 @@ impl Session {
             edges: rows.edges.clone(),
             points: rows.points(),
             near: options.near,
-            wedges: hopeless_pairs(&rows.lines),
+            wedges: rows.wedges(),
             ..Constraints::default()
         };
         let mesh = made.mesh.clone();
@@ -195,8 +217,9 @@ impl Session {
         let (points, of_slot) = slots_of(&made)?;
         let circle = smallest_enclosing_circle(&made.mesh.vertices);
         let circle = circle.unwrap_or(Circle { center: DVec2::ZERO, radius: 0.0 });
+        let in_fans = rows.lines.len() - rows.fans;
         let (lines, segment_of_line) = (rows.lines, rows.segment_of_line);
-        let frame = Frame { graph: made.graph, lines, segment_of_line };
+        let frame = Frame { graph: made.graph, lines, segment_of_line, in_fans };
         let mut session = Self {
             live,
             bounds: options.far,
@@ -230,8 +253,9 @@ impl Session {
         let Some(frame) = &self.frame else {
             return self.certificate().into();
         };
-        let points: Vec<DVec2> = frame.lines.iter().flatten().copied().collect();
-        let pieces: Vec<[u32; 2]> = (0..frame.lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
+        let lines = &frame.lines[..frame.lines.len() - frame.in_fans];
+        let points: Vec<DVec2> = lines.iter().flatten().copied().collect();
+        let pieces: Vec<[u32; 2]> = (0..lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         SessionCheck {
             certificate: self.certificate(),
             segments: check_segments(&snapshot.mesh, &points, &pieces),
@@ -268,15 +292,39 @@ impl Session {
             let marker = if marker == 0 { i32::from(side.boundary) } else { marker };
             SegmentEdge { ends: side.ends, segment, marker, boundary: side.boundary }
         };
-        made.edges = snapshot.segment_edges.iter().map(edge).collect();
+        let fans = frame.lines.len() - frame.in_fans;
+        made.edges = snapshot.segment_edges.iter().filter(|side| side.segment < fans).map(edge).collect();
         let mut point_of_vertex = vec![None; made.mesh.vertices.len()];
         for &(PointId(id), v) in &made.points {
             point_of_vertex[v.index()] = u32::try_from(id).ok();
         }
         made.vertex_markers = vertex_markers(graph, &made.edges, &point_of_vertex);
         let regions: Vec<DVec2> = graph.regions.iter().map(|r| r.point).collect();
-        made.region_of_triangle = self.live.parts(&regions);
+        made.region_of_triangle = self.live.parts(&regions, |line| line < fans);
     }
+}
+
+/// The edges of triangles that fill a narrow corner together, but for those on
+/// segments, each once: in a session they stay as segments do.
+fn fan_edges(made: &PslgTriangulation, edges: &[&SegmentEdge]) -> Vec<[VertexId; 2]> {
+    let sorted = |[a, b]: [VertexId; 2]| [a.min(b), a.max(b)];
+    let on_segments: BTreeSet<[VertexId; 2]> = edges.iter().map(|e| sorted(e.ends)).collect();
+    let mut found = BTreeSet::new();
+    for exception in &made.exempt {
+        let Reason::Sector { point, .. } = exception.reason else { continue };
+        let corners = made.mesh.triangles[exception.triangle.index()];
+        let Some(k) = corners.iter().position(|&v| made.vertex_of_point[point as usize] == Some(v)) else {
+            continue;
+        };
+        let [apex, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
+        // Between two segments it is alone.
+        if [[apex, b], [apex, c]].iter().all(|&side| on_segments.contains(&sorted(side))) {
+            continue;
+        }
+        let sides = [[apex, b], [b, c], [c, apex]].map(sorted);
+        found.extend(sides.into_iter().filter(|side| !on_segments.contains(side)));
+    }
+    found.into_iter().collect()
 }
 
 /// The slot of each point of a graph, and the point in each slot.
