@@ -161,6 +161,19 @@ impl<'a> Limits<'a> {
         by_area.min(length / if is_seen { EDGE_PER_SPACING_SEEN } else { EDGE_PER_SPACING })
     }
 
+    /// The widest hexagons along the rim of a patch of such a circumradius.
+    pub(crate) fn along_rim(&self, radius: f64) -> f64 {
+        let Some(size) = self.size else { return f64::INFINITY };
+        let corner = |i: u32| {
+            let (sin, cos) = libm::sincos(f64::from(i) * std::f64::consts::FRAC_PI_3);
+            self.circle.center + radius * DVec2::new(cos, sin)
+        };
+        let places = (0..6).flat_map(|i| {
+            (0..CELLS).map(move |k| corner(i).lerp(corner(i + 1), f64::from(k) / f64::from(CELLS)))
+        });
+        places.map(|p| size.at(p)).fold(f64::INFINITY, f64::min) / EDGE_PER_SPACING
+    }
+
     fn is_carved(&self, p: DVec2) -> bool {
         self.plane.triangle_at(p).map_or(self.extent != Extent::Hexagon, |t| self.carved[t as usize])
     }

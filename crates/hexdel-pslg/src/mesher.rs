@@ -20,7 +20,7 @@ use crate::validate::Validated;
 use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
-use hexdel_grid::Lattice;
+use hexdel_grid::{Grid, Lattice};
 use hexdel_optimize::{Effort, Sizing};
 
 /// Where a triangle has failed, hexagons are made this much smaller than its
@@ -304,6 +304,21 @@ impl<'a> Mesher<'a> {
         Ok(if again.certificate.delaunay && again.failed.is_empty() { again } else { made })
     }
 
+    /// The patch at a base level as fine as sizes along its rim want it.
+    fn with_fine_rim(&self, mut domain: Domain, lattice: &Lattice) -> Domain {
+        let Some(limits) = self.limits.as_ref().filter(|_| self.options.extent == Extent::Hexagon) else {
+            return domain;
+        };
+        let wanted = limits.along_rim(f64::from(domain.radius) * lattice.spacing(domain.base_level));
+        while lattice.spacing(domain.base_level) > wanted
+            && 2 * domain.radius <= Domain::MAX_RADIUS
+            && domain.base_level + 1 < Grid::MAX_LEVELS
+        {
+            domain = Domain { base_level: domain.base_level + 1, radius: 2 * domain.radius };
+        }
+        domain
+    }
+
     /// One mesh, from the grid on.
     fn attempt(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Net, PslgError> {
         let spacing = |p: DVec2, is_seen: bool| {
@@ -319,6 +334,7 @@ impl<'a> Mesher<'a> {
         };
         let mut refiner = refine(wishes.lattice, &features, monitor)?;
         let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
+        let domain = self.with_fine_rim(domain, refiner.grid().lattice());
         let too_many =
             || PslgError::TooMany { limit: self.options.max_triangles, at: wishes.lattice.origin() };
         let dual =
