@@ -6,6 +6,7 @@ use hexdel_geom::{AngleBounds, DVec2, VertexId, point_on_segment};
 use crate::angles::{Limits, Measure, Place};
 use crate::mesh::Mesh;
 use crate::refill::tightness;
+use crate::sizing::Sizing;
 
 /// The largest area of a triangle by the place of its centroid.
 pub type AreaLimit<'a> = &'a (dyn Fn(DVec2) -> f64 + Sync);
@@ -44,6 +45,9 @@ pub struct Constraints<'a> {
     /// Triangles larger than this where their centroids lie are divided if their
     /// angles let them, and no removal makes one. Square units of the mesh.
     pub max_area: Option<AreaLimit<'a>>,
+    /// Edges longer than wanted are divided if the angles let them, and no removal
+    /// makes one. A [`LiveMesh`](crate::live::LiveMesh) has a sizing of its own.
+    pub sizing: Option<&'a dyn Sizing>,
 }
 
 impl std::fmt::Debug for Constraints<'_> {
@@ -57,6 +61,7 @@ impl std::fmt::Debug for Constraints<'_> {
             .field("wedges", &self.wedges.len())
             .field("hopeless", &self.hopeless.is_some())
             .field("max_area", &self.max_area.is_some())
+            .field("sizing", &self.sizing.is_some())
             .finish()
     }
 }

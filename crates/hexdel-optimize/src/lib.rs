@@ -15,7 +15,7 @@
 //! | `repair` | brings all angles inside |
 //! | `rescue` | refines where repair gives up |
 //! | `decimate` | removes vertices |
-//! | `area` | divides what is larger than allowed |
+//! | `area` | divides what is larger or longer than allowed |
 //! | `sizing` | [`Sizing`]: how long edges may be |
 //! | `shake` | random changes that let more vertices go |
 //! | `change`, `refill`, `segment` | candidate changes of topology and their ranking |

@@ -7,7 +7,7 @@ use hexdel_geom::monitor::check;
 use hexdel_geom::{Cancelled, Monitor, Phase, TriMesh};
 use rayon::prelude::*;
 
-use crate::area::divide_large;
+use crate::area::{divide_large, divide_left};
 use crate::constraints::{Constraints, Rules};
 use crate::decimate::{PASSES, decimate};
 use crate::error::OptimizeError;
@@ -20,7 +20,7 @@ use crate::refill::Refills;
 use crate::repair::{self, search};
 use crate::rescue::rescue;
 use crate::shake::{SHAKES, shake};
-use crate::sizing::Sizing;
+use crate::sizing::{Sizing, triangle_fits};
 use crate::work::Work;
 
 /// Brings every angle of `mesh` inside the bounds and removes vertices while
@@ -84,7 +84,8 @@ pub fn optimize_sized(
 /// edge that must stay is an edge of the mesh returned, or several that lay in
 /// a row along one segment are one; vertices on a segment are the doubles
 /// nearest to points of it. Triangles larger than allowed are divided where that
-/// keeps the bounds; no removal makes one, though repair may.
+/// keeps the bounds; no removal makes one, though repair may. The same holds of
+/// edges longer than [`Constraints::sizing`] wants them.
 ///
 /// # Errors
 ///
@@ -114,7 +115,9 @@ fn run(
     let vertices = mesh.vertices.len();
     let soup = import(mesh, kinds, constraints)?;
     let rules = Rules::new(options.bounds, constraints);
-    let mut run = Run { sizing, ..Run::new(soup, options, &rules, monitor) };
+    let divides = constraints.and_then(|c| c.sizing);
+    let sizing = sizing.or(divides);
+    let mut run = Run { sizing, divides, ..Run::new(soup, options, &rules, monitor) };
     match run.all() {
         Ok(()) | Err(Stop::OutOfTime) => run.finish(vertices),
         Err(Stop::Cancelled(c)) => Err(c.into()),
@@ -153,6 +156,12 @@ const RESCUE_VISITS: u64 = 4_000_000;
 /// Rounds of search that hopeless triangles take part in.
 const HOPEFUL_ROUNDS: usize = 2;
 
+/// Rounds that divide edges, at the start and again at the end.
+const DIVISIONS: usize = 4;
+
+/// Those of them that may leave other edges too long.
+const LOOSE_DIVISIONS: usize = 2;
+
 /// Why the work ends early.
 enum Stop {
     OutOfTime,
@@ -165,6 +174,8 @@ struct Run<'a> {
     options: &'a Options,
     monitor: &'a dyn Monitor,
     sizing: Option<&'a dyn Sizing>,
+    /// The same if edges that are too long are to be divided.
+    divides: Option<&'a dyn Sizing>,
     /// The sizing where the present round keeps to it.
     guard: Option<&'a dyn Sizing>,
     rules: &'a Rules<'a>,
@@ -182,6 +193,7 @@ impl<'a> Run<'a> {
             options,
             monitor,
             sizing: None,
+            divides: None,
             guard: None,
             rules,
             refills: Refills::new(),
@@ -195,9 +207,10 @@ impl<'a> Run<'a> {
     /// alone does not settle often goes with a vertex, and search is cheaper on
     /// the coarser mesh.
     fn all(&mut self) -> Result<(), Stop> {
-        if self.rules.limits_areas() {
-            self.round(divide_large)?;
+        if self.rules.limits_areas() && self.divides.is_none() {
+            self.round(|work| divide_large(work, None))?;
         }
+        self.shorten()?;
         match self.passes() {
             0 => self.move_all()?,
             passes => self.decimate(0, passes)?,
@@ -210,6 +223,29 @@ impl<'a> Run<'a> {
                 self.round(shake)?;
             }
             self.search()?;
+        }
+        self.shorten()
+    }
+
+    /// Divides edges longer than wanted, and what is too large with them.
+    fn shorten(&mut self) -> Result<(), Stop> {
+        let Some(sizing) = self.divides else { return Ok(()) };
+        for i in 0..DIVISIONS {
+            let corners = |t: &[u32; 3]| t.map(|v| self.soup.pos[v as usize]);
+            let fits = |t: &[u32; 3]| {
+                let corners = corners(t);
+                self.rules.is_small(corners) && triangle_fits(sizing, corners)
+            };
+            if self.soup.tris.iter().all(fits) {
+                break;
+            }
+            if i < LOOSE_DIVISIONS {
+                self.guard = None;
+                self.round(|work| divide_large(work, Some(sizing)))?;
+            } else {
+                self.guard = Some(sizing);
+                self.round(|work| divide_left(work, sizing))?;
+            }
         }
         Ok(())
     }
@@ -225,7 +261,8 @@ impl<'a> Run<'a> {
 
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        let areas = usize::from(self.rules.limits_areas());
+        let lengths = if self.divides.is_some() { 2 * DIVISIONS } else { 0 };
+        let areas = lengths.max(usize::from(self.rules.limits_areas()));
         let once = areas + repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
         match self.options.effort {
             Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),

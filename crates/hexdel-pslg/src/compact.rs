@@ -4,11 +4,11 @@
 //! The work is that of `hexdel-optimize`; here a net becomes a mesh with
 //! constraints, and a net again.
 
-use crate::areas::AreaLimits;
 use crate::error::PslgError;
 use crate::fit::count_rings;
 use crate::fit::judge::Judge;
 use crate::geometry::fraction;
+use crate::limits::Limits;
 use crate::net::{Kind, NONE, Net};
 use crate::options::Deadline;
 use crate::sectors::Sectors;
@@ -24,7 +24,7 @@ pub(crate) struct Kept<'a> {
     pub(crate) pieces: &'a [Piece],
     pub(crate) sectors: &'a Sectors,
     pub(crate) judge: Judge<'a>,
-    pub(crate) areas: Option<&'a AreaLimits<'a>>,
+    pub(crate) limits: Option<&'a Limits<'a>>,
     /// Whether right angles near segments are to go, too.
     pub(crate) strict: bool,
     pub(crate) deadline: &'a Deadline,
@@ -39,7 +39,7 @@ pub(crate) fn compact(
     monitor: &dyn Monitor,
 ) -> Result<Net, PslgError> {
     let taken = Taken::of(&net);
-    let limit = |p: DVec2| kept.areas.map_or(f64::INFINITY, |areas| areas.at(p));
+    let limit = |p: DVec2| kept.limits.map_or(f64::INFINITY, |limits| limits.area_at(p));
     let hopeless = |corners: [DVec2; 3]| kept.sectors.near(corners).is_some_and(|(s, _)| s.is_hopeless());
     let constraints = Constraints {
         segments: net.lines.clone(),
@@ -49,7 +49,8 @@ pub(crate) fn compact(
         strict: kept.strict,
         wedges: kept.sectors.wedge_pairs().iter().map(|pair| pair.map(|p| p as usize)).collect(),
         hopeless: Some(&hopeless),
-        max_area: kept.areas.map(|_| &limit as _),
+        max_area: kept.limits.filter(|limits| limits.limits_areas()).map(|_| &limit as _),
+        sizing: kept.limits.and_then(Limits::size),
     };
     let mut options = Options::new(kept.judge.far, effort);
     options.budget = kept.deadline.left();

@@ -134,6 +134,14 @@ pub enum PslgError {
         /// The bound.
         area: f64,
     },
+    /// A length of edges is not a positive number.
+    #[error("the size at ({}, {}) is {length:?}, which is not positive", at.x, at.y)]
+    InvalidSize {
+        /// Where.
+        at: DVec2,
+        /// The length.
+        length: f64,
+    },
     /// A segment could not be made a union of edges within the budget.
     #[error("{item} could not be recovered near ({}, {})", at.x, at.y)]
     NotRecovered {

@@ -98,13 +98,13 @@ pub(crate) struct Scene {
     pub(crate) fans: Vec<Fan>,
 }
 
-/// The pieces of an input with a fan at each narrow corner. `area` is the largest
-/// area of a triangle at a place.
+/// The pieces of an input with a fan at each narrow corner. `most` is the
+/// largest radius at a place.
 pub(crate) fn with_fans(
     input: &Validated,
     pieces: Vec<Piece>,
     near: AngleBounds,
-    area: &dyn Fn(DVec2) -> f64,
+    most: &dyn Fn(DVec2) -> f64,
 ) -> Scene {
     let mut scene = Scene::plain(input, pieces);
     let spokes = Spokes::of(&scene);
@@ -112,9 +112,7 @@ pub(crate) fn with_fans(
     let ringed: FxHashSet<u32> = corners.iter().map(|at| at[0].site).collect();
     let fan = |at: &&[Spoke]| {
         let site = at[0].site;
-        // Twice the largest triangle's area is less than the radius squared.
-        let most = area(scene.sites[site as usize]).sqrt();
-        spokes.fan(input, at, &ringed, most)
+        spokes.fan(input, at, &ringed, most(scene.sites[site as usize]))
     };
     let found: Vec<Fan> = corners.iter().filter_map(fan).collect();
     if !found.is_empty() {

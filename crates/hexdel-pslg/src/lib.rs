@@ -19,7 +19,7 @@
 //! | `validate` | is it planar? |
 //! | `pairs`, `repair` | what touches, and what to do about it |
 //! | `sizing` | how fine the grid must be |
-//! | `areas` | limits on the area of triangles |
+//! | `limits` | limits on the area of triangles and the length of edges |
 //! | `hull` | the convex hull as a boundary |
 //! | `net` | a triangulation that can be changed, and changes taken back |
 //! | `field` | the size of a mesh at every place |
@@ -36,7 +36,6 @@
 //! Left to others: reading and writing (`hexdel-io`), and how vertices are
 //! removed (`hexdel-optimize`).
 
-mod areas;
 mod carve;
 mod compact;
 mod embed;
@@ -46,6 +45,7 @@ mod field;
 mod fit;
 mod geometry;
 mod hull;
+mod limits;
 mod locator;
 mod mesher;
 mod net;
@@ -61,7 +61,7 @@ mod validate;
 pub use carve::Carved;
 pub use error::{Feature, PslgError, ValidateError};
 pub use hexdel_optimize::Effort;
-pub use mesher::mesh;
+pub use mesher::{mesh, mesh_sized};
 pub use options::{Extent, Options, SegmentMethod};
 pub use output::vertex_markers;
 pub use repair::{Repair, RepairReport, repair};

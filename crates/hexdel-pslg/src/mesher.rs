@@ -1,6 +1,5 @@
 //! From a valid graph to its mesh: the order of things.
 
-use crate::areas::AreaLimits;
 use crate::carve::carve;
 use crate::compact::{Kept, compact};
 use crate::embed::embed;
@@ -9,6 +8,7 @@ use crate::fans::{Fan, Scene, with_fans};
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::optimise;
 use crate::hull::with_hull;
+use crate::limits::Limits;
 use crate::net::Net;
 use crate::options::{Deadline, Extent, Options, SegmentMethod};
 use crate::output::{self, Parts};
@@ -20,8 +20,8 @@ use crate::validate::Validated;
 use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
-use hexdel_grid::Lattice;
-use hexdel_optimize::Effort;
+use hexdel_grid::{Grid, Lattice};
+use hexdel_optimize::{Effort, Sizing};
 
 /// Where a triangle has failed, hexagons are made this much smaller than its
 /// edges; levels being powers of two, that is one level.
@@ -29,10 +29,6 @@ const REFINEMENT: f64 = 0.6;
 
 /// Edge lengths around a failed triangle within which that happens.
 const REFINED_RADIUS: f64 = 1.5;
-
-/// The largest triangle of a grid over the square of its spacing: equilateral
-/// ones have 0.433, templates and the optimiser make larger ones.
-pub(crate) const AREA_PER_SPACING_SQ: f64 = 0.75;
 
 /// Meshes a planar straight-line graph.
 ///
@@ -74,6 +70,36 @@ pub(crate) const AREA_PER_SPACING_SQ: f64 = 0.75;
 ///
 /// Never; a broken invariant would be a defect of the library.
 pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
+    run(input, options, None, monitor)
+}
+
+/// Like [`mesh`], with edges no longer than wanted at their ends and their
+/// middles, those of segments included. Triangles with edges that are longer all
+/// the same are listed as [`Reason::TooLong`](crate::Reason::TooLong).
+///
+/// # Errors
+///
+/// As [`mesh`], [`PslgError::InvalidSize`] and, of sizes that would take too many
+/// triangles, [`PslgError::TooMany`].
+///
+/// # Complexity
+///
+/// As of [`mesh`], and some looks at the size for each triangle.
+pub fn mesh_sized(
+    input: &Validated,
+    options: &Options,
+    size: &dyn Sizing,
+    monitor: &dyn Monitor,
+) -> Result<PslgMesh, PslgError> {
+    run(input, options, Some(size), monitor)
+}
+
+fn run(
+    input: &Validated,
+    options: &Options,
+    size: Option<&dyn Sizing>,
+    monitor: &dyn Monitor,
+) -> Result<PslgMesh, PslgError> {
     if let Some(area) = options.max_area.filter(|a| !(a.is_finite() && *a > 0.0)) {
         return Err(PslgError::InvalidArea { area });
     }
@@ -82,10 +108,11 @@ pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Resu
         return Err(PslgError::BoundsBeyondMethod { asked, kept });
     }
     if options.method == SegmentMethod::Paper {
-        return paper::mesh(input, options, monitor);
+        return paper::mesh(input, options, size, monitor);
     }
     let deadline = Deadline::after(options.budget);
-    let mesher = Mesher::new(input, options, &deadline);
+    let mesher = Mesher::new(input, options, size, &deadline);
+    mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
     let mut wishes = Wishes { demands: Vec::new(), lattice: mesher.lattice };
     let (mut retries, mut vain) = (0, 0);
     let mut best = mesher.made(&wishes, monitor)?;
@@ -134,7 +161,7 @@ const BESIDE_RING: f64 = 4.0;
 struct Left {
     /// Beside a sector in which no mesh could keep the bounds.
     hopeless: usize,
-    /// All others, too large ones included.
+    /// All others, those too large or too long included.
     elsewhere: Vec<u32>,
 }
 
@@ -164,22 +191,27 @@ struct Mesher<'a> {
     scene: Scene,
     sectors: Sectors,
     wedges: Wedges,
-    areas: Option<AreaLimits<'a>>,
+    limits: Option<Limits<'a>>,
     deadline: &'a Deadline,
 }
 
 impl<'a> Mesher<'a> {
-    fn new(input: &'a Validated, options: &'a Options, deadline: &'a Deadline) -> Self {
+    fn new(
+        input: &'a Validated,
+        options: &'a Options,
+        size: Option<&'a dyn Sizing>,
+        deadline: &'a Deadline,
+    ) -> Self {
         let circle =
             smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
         let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
-        let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
-        let area = |p: DVec2| areas.as_ref().map_or(f64::INFINITY, |areas| areas.at(p));
-        let scene = with_fans(input, pieces, options.near, &area);
+        let limits = Limits::of(input, options, size, circle);
+        let most = |p: DVec2| limits.as_ref().map_or(f64::INFINITY, |limits| limits.radius_at(p));
+        let scene = with_fans(input, pieces, options.near, &most);
         let sectors = Sectors::of(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
         let wedges = sectors.wedges(&scene.pieces);
         let reach = scene.sites.iter().map(|p| p.distance(circle.center)).fold(circle.radius, f64::max);
-        Self { input, options, lattice: lattice_for(circle), reach, scene, sectors, wedges, areas, deadline }
+        Self { input, options, lattice: lattice_for(circle), reach, scene, sectors, wedges, limits, deadline }
     }
 
     fn judge(&self) -> Judge<'_> {
@@ -225,7 +257,7 @@ impl<'a> Mesher<'a> {
         let bad: Vec<u32> = net.alive().filter(|&t| self.judge().is_out(net, t)).collect();
         let (hopeless, mut elsewhere): (Vec<u32>, Vec<u32>) =
             bad.iter().partition(|&&t| self.is_hopeless(net, t));
-        elsewhere.extend(self.areas.iter().flat_map(|areas| areas.exceeded(net)));
+        elsewhere.extend(self.limits.iter().flat_map(|limits| limits.exceeded(net)));
         Left { hopeless: hopeless.len(), elsewhere }
     }
 
@@ -245,7 +277,7 @@ impl<'a> Mesher<'a> {
             pieces: &self.scene.pieces,
             sectors: &self.sectors,
             judge: self.judge(),
-            areas: self.areas.as_ref(),
+            limits: self.limits.as_ref(),
             strict,
             deadline: self.deadline,
         }
@@ -261,7 +293,7 @@ impl<'a> Mesher<'a> {
             judge: self.judge(),
             method: self.options.method,
             deadline: self.deadline,
-            areas: self.areas.as_ref(),
+            limits: self.limits.as_ref(),
         };
         let made = output::finish(net.clone(), &parts, retries, monitor)?;
         if made.certificate.delaunay || !made.failed.is_empty() || made.budget_spent {
@@ -272,21 +304,37 @@ impl<'a> Mesher<'a> {
         Ok(if again.certificate.delaunay && again.failed.is_empty() { again } else { made })
     }
 
+    /// The patch at a base level as fine as sizes along its rim want it.
+    fn with_fine_rim(&self, mut domain: Domain, lattice: &Lattice) -> Domain {
+        let Some(limits) = self.limits.as_ref().filter(|_| self.options.extent == Extent::Hexagon) else {
+            return domain;
+        };
+        let wanted = limits.along_rim(f64::from(domain.radius) * lattice.spacing(domain.base_level));
+        while lattice.spacing(domain.base_level) > wanted
+            && 2 * domain.radius <= Domain::MAX_RADIUS
+            && domain.base_level + 1 < Grid::MAX_LEVELS
+        {
+            domain = Domain { base_level: domain.base_level + 1, radius: 2 * domain.radius };
+        }
+        domain
+    }
+
     /// One mesh, from the grid on.
     fn attempt(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Net, PslgError> {
-        let spacing = |p: DVec2| {
-            self.areas.as_ref().map_or(f64::INFINITY, |areas| (areas.at(p) / AREA_PER_SPACING_SQ).sqrt())
+        let spacing = |p: DVec2, is_seen: bool| {
+            self.limits.as_ref().map_or(f64::INFINITY, |limits| limits.spacing_at(p, is_seen))
         };
         let features = Features {
             sites: self.sites(),
             pieces: &self.scene.pieces,
             input_of_site: &self.scene.input_of_site,
             demands: &wishes.demands,
-            limit: self.areas.as_ref().map(|_| &spacing as &dyn Fn(DVec2) -> f64),
+            limit: self.limits.as_ref().map(|_| &spacing as &dyn Fn(DVec2, bool) -> f64),
             max_triangles: self.options.max_triangles,
         };
         let mut refiner = refine(wishes.lattice, &features, monitor)?;
         let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
+        let domain = self.with_fine_rim(domain, refiner.grid().lattice());
         let too_many =
             || PslgError::TooMany { limit: self.options.max_triangles, at: wishes.lattice.origin() };
         let dual =

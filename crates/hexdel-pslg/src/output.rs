@@ -1,11 +1,11 @@
 //! The finished mesh: compact arrays, markers, regions, and what it keeps.
 
-use crate::areas::AreaLimits;
 use crate::error::PslgError;
 use crate::fans::Scene;
 use crate::fit::count_rings;
 use crate::fit::edits::parameter;
 use crate::fit::judge::{FAR_RING, Judge, is_sector};
+use crate::limits::Limits;
 use crate::locator::Locator;
 use crate::net::{Kind, NONE, Net};
 use crate::options::{Deadline, SegmentMethod};
@@ -28,7 +28,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) judge: Judge<'a>,
     pub(crate) method: SegmentMethod,
     pub(crate) deadline: &'a Deadline,
-    pub(crate) areas: Option<&'a AreaLimits<'a>>,
+    pub(crate) limits: Option<&'a Limits<'a>>,
 }
 
 /// Makes the result.
@@ -271,7 +271,7 @@ fn regions(net: &Net, input: &Validated) -> Vec<Option<u32>> {
 }
 
 /// The triangles that do not keep their bounds: those that a corner of the
-/// input excuses, and the others, with those larger than allowed.
+/// input excuses, and the others, with those larger or longer than allowed.
 fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception>, Vec<Exception>) {
     let least = parts.judge.near.min_deg();
     let entry = |t: u32, reason: Reason| {
@@ -299,13 +299,12 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
         entry(t, reason)
     });
     let mut failed: Vec<Exception> = failed.collect();
-    let large: FxHashSet<u32> = parts.areas.iter().flat_map(|areas| areas.exceeded(net)).collect();
-    failed.extend(net.alive().filter(|t| large.contains(t) && !parts.judge.is_out(net, *t)).filter_map(
-        |t| {
-            let [area, limit] = parts.areas?.excess(net.corners(t))?;
-            Some(entry(t, Reason::TooLarge { area, limit }))
-        },
-    ));
+    let large: FxHashSet<u32> = parts.limits.iter().flat_map(|limits| limits.exceeded(net)).collect();
+    failed.extend(
+        net.alive()
+            .filter(|t| large.contains(t) && !parts.judge.is_out(net, *t))
+            .filter_map(|t| Some(entry(t, parts.limits?.excess(net.corners(t))?))),
+    );
     let narrow = |t: u32| {
         let (sector, _) = parts.sectors.near(net.corners(t))?;
         Some(Reason::Sector { point: point(sector.site), angle_deg: sector.angle_deg })

@@ -27,7 +27,8 @@ pub struct PslgMesh {
     /// Triangles that keep their bounds but for the angle between two segments
     /// that meet in an input point.
     pub exempt: Vec<Exception>,
-    /// Triangles that do not keep their bounds, or are larger than allowed.
+    /// Triangles that do not keep their bounds, or are larger or longer than
+    /// allowed.
     pub failed: Vec<Exception>,
     /// What the mesh keeps, held against the bounds near segments. Exempt and
     /// failed triangles are counted as out of bounds in it.
@@ -54,7 +55,7 @@ pub struct SegmentEdge {
     pub boundary: bool,
 }
 
-/// A triangle that does not keep its bounds, or is too large, and why.
+/// A triangle that does not keep its bounds, is too large or too long, and why.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exception {
     /// The triangle.
@@ -95,6 +96,13 @@ pub enum Reason {
         /// Its area, square input units.
         area: f64,
         /// The largest area allowed where its centroid lies.
+        limit: f64,
+    },
+    /// Its angles are within the bounds, but an edge of it is longer than allowed.
+    TooLong {
+        /// The edge's length, input units.
+        length: f64,
+        /// The longest allowed at its ends and its middle.
         limit: f64,
     },
     /// Near a segment or a point on one, where the paper's templates promise no

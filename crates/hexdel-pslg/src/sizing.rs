@@ -13,6 +13,7 @@
 
 use crate::error::{Feature, PslgError};
 use crate::geometry::distance_sq;
+use crate::limits::positive;
 use crate::validate::Piece;
 use hexdel_geom::monitor::{Monitor, check};
 use hexdel_geom::{Circle, DVec2};
@@ -51,8 +52,9 @@ pub(crate) struct Features<'a> {
     pub(crate) pieces: &'a [Piece],
     pub(crate) input_of_site: &'a [u32],
     pub(crate) demands: &'a [Demand],
-    /// The largest spacing allowed at a place, if there is a limit anywhere.
-    pub(crate) limit: Option<&'a dyn Fn(DVec2) -> f64>,
+    /// The largest spacing allowed at a place, with points or segments near by or
+    /// not, if there is a limit anywhere.
+    pub(crate) limit: Option<&'a dyn Fn(DVec2, bool) -> f64>,
     /// The most triangles that may come to be.
     pub(crate) max_triangles: usize,
 }
@@ -65,8 +67,12 @@ struct Leaf {
 
 /// The lattice for an input in a circle.
 pub(crate) fn lattice_for(circle: Circle) -> Lattice {
-    let radius = if circle.radius > 0.0 { circle.radius } else { 1.0 };
-    Lattice::new(circle.center, LEVEL_0_RADII * radius)
+    Lattice::new(circle.center, LEVEL_0_RADII * scale_of(circle))
+}
+
+/// The radius of a circle around an input; a single point has no scale.
+pub(crate) fn scale_of(circle: Circle) -> f64 {
+    if circle.radius > 0.0 { circle.radius } else { 1.0 }
 }
 
 /// Refines until every leaf is fine enough for what it sees.
@@ -176,12 +182,10 @@ impl Sizer<'_> {
     fn wants(&self, leaf: &Leaf) -> Result<bool, PslgError> {
         let spacing = self.lattice.spacing(leaf.at.level);
         let culprits = self.culprits(leaf);
-        let limited =
-            || self.features.limit.is_some_and(|limit| spacing > limit(self.lattice.position(leaf.at)));
-        if culprits.is_none() && !self.is_coarse(leaf, spacing) && !limited() {
+        let at = self.lattice.position(leaf.at);
+        if culprits.is_none() && !self.is_coarse(leaf, spacing) && spacing <= self.limit(leaf, at)? {
             return Ok(false);
         }
-        let at = self.lattice.position(leaf.at);
         let largest = at.abs().max_element();
         let least = largest * f64::EPSILON * LAST_PLACES;
         if 0.5 * spacing >= least && leaf.at.level + 1 < Grid::MAX_LEVELS {
@@ -192,6 +196,14 @@ impl Sizer<'_> {
             Some(items) => Err(PslgError::TooClose { items, at, spacing }),
             None => Ok(false),
         }
+    }
+
+    /// The largest spacing of a leaf at a place.
+    fn limit(&self, leaf: &Leaf, at: DVec2) -> Result<f64, PslgError> {
+        let f = self.features;
+        let Some(limit) = f.limit else { return Ok(f64::INFINITY) };
+        let solid = (f.sites.len() + f.pieces.len()) as u32;
+        positive(at, limit(at, leaf.seen.first().is_some_and(|&i| i < solid)))
     }
 
     /// Whether the leaf is coarser than a feature may have it by itself.

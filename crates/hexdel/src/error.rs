@@ -1,5 +1,6 @@
 //! Why points or a graph could not be meshed.
 
+use crate::size::SizeError;
 use hexdel_classify::DualError;
 use hexdel_geom::{AngleBounds, Cancelled, Certificate, DVec2, DelaunayError, PointsError, TriMesh};
 use hexdel_optimize::OptimizeError;
@@ -182,6 +183,10 @@ impl From<PslgError> for Error {
     fn from(error: PslgError) -> Self {
         match error {
             PslgError::Cancelled(c) => Self::Cancelled(c),
+            PslgError::InvalidSize { at, length } => {
+                let what = format!("the place ({:?}, {:?})", at.x, at.y);
+                Self::Size(SizeError::NotPositive { what, size: length })
+            }
             other => Self::Pslg(other),
         }
     }

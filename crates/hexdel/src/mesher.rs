@@ -228,7 +228,10 @@ impl Mesher {
     }
 
     /// How long edges may be, by default as long as the points allow. Every edge
-    /// keeps to it at both ends and its middle; for points only.
+    /// keeps to it at both ends and its middle. In the mesh of a graph those of segments
+    /// do, too; triangles with longer edges, where the angles left no way, are listed in
+    /// [`failed`](crate::PslgTriangulation::failed). A region of a graph has a size of
+    /// its own by its corners ([`Size::and_polygon`]).
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, Size};

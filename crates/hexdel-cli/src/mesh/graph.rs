@@ -165,11 +165,14 @@ fn promises(made: &PslgTriangulation) -> String {
         0 => "every segment edges".to_owned(),
         lost => format!("{lost} parts of segments lost"),
     };
+    let edges = made.size_ratio.map_or_else(String::new, |ratio| {
+        format!(",\n           edges up to {ratio:.4} of the length wanted")
+    });
     if made.method == SegmentMethod::Paper {
-        return format!("away from segments angles within 43.8978 to 90, {points}, {segments}");
+        return format!("away from segments angles within 43.8978 to 90, {points}, {segments}{edges}");
     }
     let delaunay = if c.delaunay { "Delaunay" } else { "not Delaunay" };
-    format!("angles within {min:.4} to {max}{exempt}, {delaunay}, {points}, {segments}{}", limited(c))
+    format!("angles within {min:.4} to {max}{exempt}, {delaunay}, {points}, {segments}{edges}{}", limited(c))
 }
 
 /// A count and the first items, if there are any.

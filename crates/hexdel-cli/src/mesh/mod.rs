@@ -66,7 +66,7 @@ pub(crate) struct Args {
     /// Largest area of a triangle; of a graph, in the circle around it
     #[arg(short = 'a', long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
     max_area: Option<f64>,
-    /// Longest edge, of a mesh of points
+    /// Longest edge
     #[arg(long = "size", alias = "max-edge", value_name = "H", value_parser = positive)]
     #[arg(allow_negative_numbers = true)]
     max_edge: Option<f64>,

@@ -181,3 +181,27 @@ fn segments_that_are_no_edges_fail_the_check() {
     assert!(run.out.contains("FAIL  0 of 1 segments are unions of edges"), "{}", run.out);
     assert!(run.out.contains("segment 0 (1, 0) (0, 1): edges lead to (1, 0) only"), "{}", run.out);
 }
+
+#[test]
+fn graphs_keep_to_sizes() {
+    let bench = Bench::new();
+    bench.file("sizes.txt", "0 0 0.05\n4 4 1\n");
+    let input = graph("square_with_hole");
+    let mut triangles = Vec::new();
+    for size in ["--size 2", "--size 0.3", "--size-file sizes.txt", "--size 0.3 --size-file sizes.txt"] {
+        let run = bench.run(&format!("mesh {input} {size} -o m.ele --report r.json"));
+        run.fine();
+        assert!(run.out.contains("of the length wanted"), "{}", run.out);
+        let report = bench.json("r.json");
+        let ratio = report["size_ratio"].as_f64().unwrap();
+        assert!((0.3..=1.0 + 1e-9).contains(&ratio), "{size}: {ratio}");
+        assert_eq!(report["failed"].as_array().unwrap().len(), 0);
+        triangles.push(report["triangles"].as_u64().unwrap());
+    }
+    assert!(triangles[0] < triangles[1] && triangles[1] < triangles[3] && triangles[2] < triangles[3]);
+    bench.run(&format!("mesh {input} -q -o m.ele --report r.json")).fine();
+    assert!(bench.json("r.json")["size_ratio"].is_null());
+    bench.run(&format!("mesh {input} -o m.ele --size 1e-14")).refused("below");
+    bench.run(&format!("mesh {input} -o m.ele --size 1e-6")).refused("more than 50000000 triangles");
+    bench.run(&format!("mesh {input} -o m.ele --size 0")).refused("positive");
+}

@@ -24,13 +24,13 @@ mod place;
 mod project;
 mod rules;
 
-use crate::areas::AreaLimits;
 use crate::carve::carve;
 use crate::error::PslgError;
 use crate::fans;
 use crate::fit::judge::{Judge, Wedges};
 use crate::hull::with_hull;
-use crate::mesher::{AREA_PER_SPACING_SQ, demand_at};
+use crate::limits::Limits;
+use crate::mesher::demand_at;
 use crate::net::{Kind, Net};
 use crate::options::{Deadline, Extent, Options};
 use crate::output::{self, Parts};
@@ -45,6 +45,7 @@ use hexdel_geom::{
     smallest_enclosing_circle,
 };
 use hexdel_grid::{Lattice, Located};
+use hexdel_optimize::Sizing;
 use hexdel_refine::{Refiner, RuleSet};
 use rules::{Passed, Scene};
 
@@ -56,6 +57,7 @@ use rules::{Passed, Scene};
 pub(crate) fn mesh(
     input: &Validated,
     options: &Options,
+    size: Option<&dyn Sizing>,
     monitor: &dyn Monitor,
 ) -> Result<PslgMesh, PslgError> {
     let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
@@ -66,15 +68,16 @@ pub(crate) fn mesh(
         max_triangles: options.max_triangles,
     };
     let circle = smallest_enclosing_circle(scene.sites).expect("a valid graph has a finite point");
-    let areas = AreaLimits::of(input, options.max_area, circle, options.extent == Extent::Inside);
+    let limits = Limits::of(input, options, size, circle);
+    limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
     let mut demands = Vec::new();
     let mut attempt = 0;
-    // Only areas ask for another attempt: angles are what they are.
+    // Only limits ask for another attempt: angles are what they are.
     let net = loop {
-        let refiner = start(circle, areas.as_ref(), &demands, options, monitor)?;
+        let refiner = start(circle, limits.as_ref(), &demands, options, monitor)?;
         let mut net = embedded(refiner, &scene, circle.radius, monitor)?;
         carve(&mut net, &input.pslg.holes, options.extent != Extent::Hexagon);
-        let large = areas.as_ref().map_or_else(Vec::new, |areas| areas.exceeded(&net));
+        let large = limits.as_ref().map_or_else(Vec::new, |limits| limits.exceeded(&net));
         if large.is_empty() || attempt == options.retries {
             break net;
         }
@@ -99,23 +102,23 @@ pub(crate) fn mesh(
         judge,
         method: options.method,
         deadline: &deadline,
-        areas: areas.as_ref(),
+        limits: limits.as_ref(),
     };
     output::finish(net, &parts, attempt, monitor)
 }
 
 /// A grid that knows nothing of points and segments, fine enough for limits on
-/// areas.
+/// areas and lengths.
 fn start(
     circle: Circle,
-    areas: Option<&AreaLimits<'_>>,
+    limits: Option<&Limits<'_>>,
     demands: &[Demand],
     options: &Options,
     monitor: &dyn Monitor,
 ) -> Result<Refiner, PslgError> {
     let lattice = lattice_for(circle);
-    let Some(areas) = areas else { return Ok(Refiner::new(lattice, RuleSet::extended())) };
-    let spacing = |p: DVec2| (areas.at(p) / AREA_PER_SPACING_SQ).sqrt();
+    let Some(limits) = limits else { return Ok(Refiner::new(lattice, RuleSet::extended())) };
+    let spacing = |p: DVec2, _| limits.spacing_at(p, true);
     let features = Features {
         sites: &[],
         pieces: &[],

@@ -12,8 +12,13 @@ mod watch;
 
 use crate::error::Error;
 use crate::mesher::{Mesher, Method};
-use hexdel_geom::{AngleBounds, Monitor, Phase, Pslg, Unwatched};
-use hexdel_pslg::{Extent, Options, SegmentMethod, mesh, validate};
+use crate::placement::finest_spacing;
+use crate::size::SizeError;
+use crate::sized;
+use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Unwatched, smallest_enclosing_circle};
+use hexdel_pslg::{
+    Extent, Options, PslgError, PslgMesh, SegmentMethod, Validated, mesh, mesh_sized, validate,
+};
 use repair::Repaired;
 use result::PslgTriangulation;
 use watch::Stopwatch;
@@ -245,7 +250,8 @@ impl Mesher {
     /// Delaunay. Those that do not keep their bounds are listed with reason and
     /// place: [`exempt`](PslgTriangulation::exempt) at corners of the input
     /// narrower than the bound, [`failed`](PslgTriangulation::failed) elsewhere,
-    /// and so are those larger than a limit on areas.
+    /// and so are those larger than a limit on areas or with edges longer than a
+    /// [`size`](Self::size) allows.
     /// That none fails is not guaranteed; where segments meet at 30 degrees or
     /// more it is what to expect. Same graph, same bytes, at any number of
     /// threads.
@@ -283,23 +289,46 @@ impl Mesher {
             given.unwrap_or(if graph.segments.is_empty() { Domain::Hexagon } else { Domain::Inside });
         let boxed = (domain == Domain::Box).then(|| boxed::with_box(graph));
         let validated = validate(boxed.as_ref().unwrap_or(graph)).map_err(|e| repaired.as_given(e))?;
+        self.check_graph_size(&graph.points)?;
         let mut made =
-            mesh(&validated, &self.pslg_options(domain), &watch).map_err(|e| repaired.error_as_given(e))?;
+            self.mesh_of_graph(&validated, domain, &watch).map_err(|e| repaired.error_as_given(e))?;
         if boxed.is_some() {
             boxed::forget_box(&mut made, graph);
         }
         verify::list_all(&mut made);
         let segments = verify::segments(&mut made, graph, &validated, domain);
+        let size_ratio = self.size.as_ref().map(|size| sized::worst(&made.mesh, size).0);
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
-        Ok(PslgTriangulation::new(made, segments, repaired, domain, watch.seconds()))
+        let made = PslgTriangulation::new(made, segments, repaired, domain, watch.seconds());
+        Ok(PslgTriangulation { size_ratio, ..made })
+    }
+
+    fn mesh_of_graph(
+        &self,
+        graph: &Validated,
+        domain: Domain,
+        monitor: &dyn Monitor,
+    ) -> Result<PslgMesh, PslgError> {
+        let options = self.pslg_options(domain);
+        match &self.size {
+            Some(size) => mesh_sized(graph, &options, size, monitor),
+            None => mesh(graph, &options, monitor),
+        }
+    }
+
+    /// Refuses sizes that coordinates do not resolve around a graph.
+    fn check_graph_size(&self, points: &[DVec2]) -> Result<(), SizeError> {
+        let (Some(size), Some(circle)) = (&self.size, smallest_enclosing_circle(points)) else {
+            return Ok(());
+        };
+        size.check(finest_spacing(DVec2::splat(circle.center.abs().max_element() + circle.radius)))
     }
 
     fn refuse_for_graphs(&self) -> Result<(), Error> {
         let given = [
             ("the simple method", self.method == Method::Simple),
             ("the radius of a domain", self.domain_radius.is_some()),
-            ("the size of edges", self.size.is_some()),
             ("meshing without coarsening", self.without_coarsening),
         ];
         match given.into_iter().find(|(_, given)| *given) {

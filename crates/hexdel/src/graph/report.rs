@@ -35,7 +35,9 @@ pub struct PslgReport<'a> {
     pub segments_missing: usize,
     /// Triangles that only a corner of the input puts out of bounds.
     pub exempt: Vec<ExceptionEntry>,
-    /// Triangles out of bounds, or larger than allowed.
+    /// The longest edge over the length wanted, if a size was given.
+    pub size_ratio: Option<f64>,
+    /// Triangles out of bounds, or larger or longer than allowed.
     pub failed: Vec<ExceptionEntry>,
     /// What repair did, in order.
     pub repairs: Vec<RepairEntry>,
@@ -47,7 +49,8 @@ pub struct PslgReport<'a> {
     pub seconds: Seconds,
 }
 
-/// A triangle that does not keep its bounds, or is larger than allowed.
+/// A triangle that does not keep its bounds, or is larger or longer than
+/// allowed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ExceptionEntry {
@@ -59,11 +62,14 @@ pub struct ExceptionEntry {
     pub min_angle_deg: f64,
     /// Its largest angle, degrees.
     pub max_angle_deg: f64,
-    /// Why, in a word: "sector", "near sector", "template", "too large" or
-    /// "unsolved".
+    /// Why, in a word: "sector", "near sector", "template", "too large",
+    /// "too long" or "unsolved".
     pub reason: &'static str,
     /// Of a triangle that is too large: its area and the largest allowed there.
     pub areas: Option<[f64; 2]>,
+    /// Of a triangle with an edge that is too long: its length and the largest
+    /// allowed there.
+    pub lengths: Option<[f64; 2]>,
     /// The corner of the input to blame, if there is one.
     pub corner: Option<Corner>,
 }
@@ -107,6 +113,7 @@ impl<'a> PslgReport<'a> {
             edges_of_segment: &made.edges_of_segment,
             segments_missing: made.segments.missing.len(),
             exempt: entries(&made.exempt),
+            size_ratio: made.size_ratio,
             failed: entries(&made.failed),
             repairs: repairs.map(RepairEntry::new).collect(),
             retries: made.retries,
@@ -129,15 +136,20 @@ impl ExceptionEntry {
             Reason::NearSector { point, angle_deg, .. } => ("near sector", Some(corner(point, angle_deg))),
             Reason::Template => ("template", None),
             Reason::TooLarge { .. } => ("too large", None),
+            Reason::TooLong { .. } => ("too long", None),
             _ => ("unsolved", None),
         };
         let areas = match exception.reason {
             Reason::TooLarge { area, limit } => Some([area, limit]),
             _ => None,
         };
+        let lengths = match exception.reason {
+            Reason::TooLong { length, limit } => Some([length, limit]),
+            _ => None,
+        };
         let [min_angle_deg, max_angle_deg] = exception.angles_deg;
         let triangle = exception.triangle.index();
-        Self { triangle, at: exception.at, min_angle_deg, max_angle_deg, reason, areas, corner }
+        Self { triangle, at: exception.at, min_angle_deg, max_angle_deg, reason, areas, lengths, corner }
     }
 }
 
@@ -156,6 +168,10 @@ impl std::fmt::Display for ExceptionEntry {
             ("too large", _) => {
                 let [area, limit] = self.areas.unwrap_or_default();
                 write!(f, "area {area} where {limit} is allowed")
+            }
+            ("too long", _) => {
+                let [length, limit] = self.lengths.unwrap_or_default();
+                write!(f, "an edge of {length} where {limit} is allowed")
             }
             ("template", _) => write!(f, "by the paper's templates"),
             _ => write!(f, "no way was found"),

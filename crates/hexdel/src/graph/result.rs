@@ -40,11 +40,15 @@ pub struct PslgTriangulation {
     /// Triangles that keep their bounds but for the angle between two segments
     /// that meet in an input point.
     pub exempt: Vec<Exception>,
-    /// Triangles that do not keep their bounds, or are larger than allowed.
+    /// Triangles that do not keep their bounds, or are larger or longer than
+    /// allowed.
     pub failed: Vec<Exception>,
     /// What the mesh was found to keep, held against the bounds near segments.
     /// Exempt and failed triangles count as out of bounds in it.
     pub certificate: Certificate,
+    /// The longest edge over the length wanted, if a size was given; above
+    /// 1 + 1e-9 only if some triangles [`failed`](Self::failed) for that.
+    pub size_ratio: Option<f64>,
     /// Whether segments are unions of edges, checked from scratch piece by piece
     /// between the points on them; pieces in holes and outside of the domain are
     /// left out.
@@ -83,6 +87,7 @@ impl PslgTriangulation {
             exempt: made.exempt,
             failed: made.failed,
             certificate: made.certificate,
+            size_ratio: None,
             segments,
             domain,
             method: made.method,
