@@ -25,12 +25,12 @@
 //! Vertices of the ring become sites, its edges and spokes pieces that are not
 //! divided. No region ends at them.
 
-use crate::geometry::distance_sq;
+use crate::geometry::{distance_sq, nearest_on};
 use crate::net::{Kind, NONE, Net};
 use crate::sectors::direction;
 use crate::validate::{Piece, Validated};
 use hexdel_geom::{AngleBounds, DVec2, point_on_segment};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::f64::consts::TAU;
 
 /// Corners below this many degrees get a fan. On the outer side of a segment
@@ -59,16 +59,21 @@ const WIDEST: f64 = 0.87;
 const GROWTH: f64 = 0.8;
 
 /// The ring's radius over the distance of the nearest thing that is not part of
-/// the corner. The larger, the shorter the strip beside the fan; but the longest
-/// edges of the ring must not be much longer than what is left to that thing.
+/// the corner, where that is not beside short edges of the ring. The larger, the
+/// shorter the strip beside the fan; but the longest edges of the ring must not be
+/// much longer than what is left to that thing.
 const CLEAR: f64 = 0.7;
 
-/// The same for a point that has a ring, too.
-const CLEAR_OF_RING: f64 = 0.45;
+/// The radii of two rings over the distance of their centres.
+const CLEAR_OF_RING: f64 = 0.9;
 
-/// How far beyond the ring a free end is that is not on it, in lengths of the
-/// ring's edges beside it: what is between has the room for good angles.
+/// How far beyond the ring anything is that is not on it, in lengths of the
+/// ring's edges there: what is between has the room for good angles. Of things
+/// farther than `CLEAR` allows no more is asked for.
 const BEYOND: f64 = 4.0;
+
+/// Places on a piece at which that is looked at, less one.
+const SAMPLES: u32 = 16;
 
 /// Whether a free end is a vertex of a ring: its triangles, with one side along the
 /// radius, have no obtuse angle.
@@ -109,12 +114,7 @@ pub(crate) fn with_fans(
     let mut scene = Scene::plain(input, pieces);
     let spokes = Spokes::of(&scene);
     let corners: Vec<&[Spoke]> = spokes.corners(near).collect();
-    let ringed: FxHashSet<u32> = corners.iter().map(|at| at[0].site).collect();
-    let fan = |at: &&[Spoke]| {
-        let site = at[0].site;
-        spokes.fan(input, at, &ringed, most(scene.sites[site as usize]))
-    };
-    let found: Vec<Fan> = corners.iter().filter_map(fan).collect();
+    let found = spokes.fans(input, &corners, most);
     if !found.is_empty() {
         let rings: Vec<Ring> = found.iter().map(|fan| spokes.ring(*fan)).collect();
         scene.cut(&rings);
@@ -139,6 +139,14 @@ struct Spoke {
 struct Spokes<'a> {
     scene: &'a Scene,
     all: Vec<Spoke>,
+}
+
+/// What is around a corner.
+struct Room {
+    /// Of a ring that is clear of all but other rings.
+    radius: f64,
+    /// Sites that may have a ring, too, and how far away they are; perhaps more than once.
+    ringed: Vec<(u32, f64)>,
 }
 
 /// A ring to be.
@@ -192,10 +200,25 @@ impl<'a> Spokes<'a> {
         })
     }
 
-    /// The fan at a corner, of a radius of `most` at most; `None` if there is no room.
-    fn fan(&self, input: &Validated, at: &[Spoke], ringed: &FxHashSet<u32>, most: f64) -> Option<Fan> {
-        let site = at[0].site;
-        let clear = self.clear_radius(input, site, ringed).min(most);
+    /// The fans at corners, of radii of `most` at a place at most, where there is room.
+    fn fans(&self, input: &Validated, corners: &[&[Spoke]], most: &dyn Fn(DVec2) -> f64) -> Vec<Fan> {
+        let rooms: FxHashMap<u32, Room> =
+            corners.iter().map(|at| (at[0].site, self.room(input, at, corners))).collect();
+        let fan = |at: &&[Spoke]| {
+            let site = at[0].site;
+            let room = &rooms[&site];
+            // What one ring leaves of the distance is for the other.
+            let left = |&(other, distance): &(u32, f64)| {
+                f64::max(0.5 * CLEAR_OF_RING * distance, CLEAR_OF_RING * distance - rooms[&other].radius)
+            };
+            let clear = room.ringed.iter().map(left).fold(room.radius, f64::min);
+            self.fan(at, clear.min(most(self.scene.sites[site as usize])))
+        };
+        corners.iter().filter_map(fan).collect()
+    }
+
+    /// The fan at a corner, clear of all but free ends of its spokes.
+    fn fan(&self, at: &[Spoke], clear: f64) -> Option<Fan> {
         let beside = beside(at, &divisions(at));
         let free = || at.iter().zip(beside.iter().copied()).filter(|(s, _)| s.free);
         let first = free().map(|(s, _)| s.length).fold(f64::INFINITY, f64::min);
@@ -204,48 +227,53 @@ impl<'a> Spokes<'a> {
         if !free().all(|(s, gap)| is_on_ring(s, gap, radius) || beyond((s, gap)) >= radius) {
             radius = free().map(beyond).fold(radius, f64::min);
         }
-        (radius > 0.0 && radius.is_finite()).then_some(Fan { site, radius })
+        (radius > 0.0 && radius.is_finite()).then_some(Fan { site: at[0].site, radius })
     }
 
-    /// The largest radius that is clear of what does not belong to a site's corner:
-    /// other sites but for free ends of its own pieces, other pieces.
-    fn clear_radius(&self, input: &Validated, site: u32, ringed: &FxHashSet<u32>) -> f64 {
-        let (plane, centre) = (&input.plane, self.scene.sites[site as usize]);
-        let vertex = input.vertex_of_site[site as usize];
-        let own: FxHashSet<u32> = self
-            .at(site)
-            .iter()
-            .filter(|s| s.free)
-            .flat_map(|s| self.scene.pieces[s.piece as usize].ends)
-            .collect();
-        let mut radius = f64::INFINITY;
+    /// The room at a corner for a ring that is clear of other sites, but for free ends
+    /// of its own pieces, and of other pieces.
+    fn room(&self, input: &Validated, at: &[Spoke], corners: &[&[Spoke]]) -> Room {
+        let (plane, site) = (&input.plane, at[0].site);
+        let (centre, vertex) = (self.scene.sites[site as usize], input.vertex_of_site[site as usize]);
+        let own: FxHashSet<u32> =
+            at.iter().filter(|s| s.free).flat_map(|s| self.scene.pieces[s.piece as usize].ends).collect();
+        let clear = clearance(centre, at);
+        let clear_of_piece = |[a, b]: [DVec2; 2]| {
+            let places = (0..=SAMPLES).map(|k| a.lerp(b, f64::from(k) / f64::from(SAMPLES)));
+            places.chain([nearest_on(centre, a, b)]).map(&clear).fold(f64::INFINITY, f64::min)
+        };
+        let is_ringed = |s: u32| corners.binary_search_by_key(&s, |at| at[0].site).is_ok();
+        let mut room = Room { radius: f64::INFINITY, ringed: Vec::new() };
         let mut stack = Vec::new();
         plane.star(vertex, &mut stack);
         let mut seen: FxHashSet<u32> = stack.iter().copied().collect();
         while let Some(t) = stack.pop() {
             let tri = plane.tri(t);
             for i in 0..3 {
+                let p = plane.at(tri.v[i]);
                 if let Kind::Site(s) = plane.vertex(tri.v[i]).kind
                     && s != site
                     && !own.contains(&s)
                 {
-                    let clear = if ringed.contains(&s) { CLEAR_OF_RING } else { CLEAR };
-                    radius = radius.min(clear * centre.distance(plane.at(tri.v[i])));
+                    room.radius = room.radius.min(clear(p));
+                    if is_ringed(s) {
+                        room.ringed.push((s, centre.distance(p)));
+                    }
                 }
                 if tri.edge(i).contains(&vertex) {
                     continue;
                 }
                 let [a, b] = tri.edge(i).map(|v| plane.at(v));
-                let distance = distance_sq(centre, a, b).sqrt();
                 if tri.s[i] != NONE {
-                    radius = radius.min(CLEAR * distance);
+                    room.radius = room.radius.min(clear_of_piece([a, b]));
                 }
-                if CLEAR_OF_RING * distance < radius && tri.n[i] != NONE && seen.insert(tri.n[i]) {
+                let reached = 0.5 * CLEAR_OF_RING * distance_sq(centre, a, b).sqrt() < room.radius;
+                if reached && tri.n[i] != NONE && seen.insert(tri.n[i]) {
                     stack.push(tri.n[i]);
                 }
             }
         }
-        radius
+        room
     }
 
     fn ring(&self, fan: Fan) -> Ring {
@@ -263,17 +291,31 @@ impl<'a> Spokes<'a> {
 /// The angles, from each spoke, at which a ring has vertices before the next: close
 /// together beside narrow corners.
 fn divisions(at: &[Spoke]) -> Vec<Vec<f64>> {
+    let size = sizes(at);
+    at.iter().zip(gaps(at)).map(|(s, gap)| divided(gap, |a| size(s.angle + a))).collect()
+}
+
+/// The angle that a fan's triangle has in each direction.
+fn sizes(at: &[Spoke]) -> impl Fn(f64) -> f64 {
     let gaps = gaps(at);
     let starts: Vec<f64> = at.iter().map(|s| s.angle).collect();
-    let size = |angle: f64| {
+    move |angle: f64| {
         let sizes = starts.iter().zip(&gaps).map(|(start, gap)| {
             let into = (angle - start).rem_euclid(TAU);
             let away = if into <= *gap { 0.0 } else { (into - gap).min(TAU - into) };
             gap + GROWTH * away
         });
         sizes.fold(WIDEST, f64::min)
-    };
-    at.iter().zip(&gaps).map(|(s, gap)| divided(*gap, |a| size(s.angle + a))).collect()
+    }
+}
+
+/// The largest radius of a ring that is clear of a place.
+fn clearance(centre: DVec2, at: &[Spoke]) -> impl Fn(DVec2) -> f64 {
+    let size = sizes(at);
+    move |p: DVec2| {
+        let beyond = 1.0 / (1.0 + BEYOND * size(direction(p - centre)));
+        centre.distance(p) * CLEAR.max(beyond)
+    }
 }
 
 /// The angles from each spoke to the next, radians.
@@ -388,18 +430,16 @@ impl Scene {
     }
 }
 
-/// Takes out the free vertices inside of a ring around a vertex.
+/// Takes out the free vertices inside of a ring around a vertex. Those just outside
+/// are to stay: beside a narrow corner the mesh is as fine as the corner is wide.
 pub(crate) fn empty(net: &mut Net, centre: u32, radius: f64) {
-    // A chord of 50 degrees comes closer to the centre; what is between it and
-    // the arc is too close to the chord.
-    const BEYOND: f64 = 1.02;
     let at = net.at(centre);
     let (mut stack, mut inside) = (vec![centre], FxHashSet::default());
     let mut star = Vec::new();
     while let Some(v) = stack.pop() {
         net.star(v, &mut star);
         for w in star.iter().flat_map(|&t| net.tri(t).v) {
-            if at.distance(net.at(w)) < BEYOND * radius && inside.insert(w) {
+            if at.distance(net.at(w)) < radius && inside.insert(w) {
                 stack.push(w);
             }
         }

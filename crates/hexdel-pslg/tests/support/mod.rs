@@ -219,7 +219,7 @@ pub fn wedge(angle_deg: f64, seed: u64) -> Pslg {
 }
 
 /// What [`needle`] knows.
-pub const NEEDLES: [&str; 6] = ["open", "even", "nearly even", "closed", "kite", "on the side"];
+pub const NEEDLES: [&str; 7] = ["open", "even", "nearly even", "closed", "blunt", "kite", "on the side"];
 
 /// A frame of 8 by 6 with two segments in it, or a closed splinter, that meet at a
 /// small angle. Every other one is parallel to the frame.
@@ -238,12 +238,12 @@ pub fn needle(name: &str, angle_deg: f64, seed: u64) -> Pslg {
     let point = |length: f64, angle: f64| at + DVec2::from_angle(turn + angle) * length;
     let part = match name {
         "even" => 1.0 / angle.cos(),
-        "nearly even" => 1.0 + angle * random.within(0.0, 4.0),
+        "nearly even" | "blunt" => 1.0 + angle * random.within(0.0, 4.0),
         _ => random.within(0.5, 1.0),
     };
     let ends = [point(1.0, 0.0), at, point(part, angle)];
     match name {
-        "closed" => append(&mut pslg, &chain(&ends, true)),
+        "closed" | "blunt" => append(&mut pslg, &chain(&ends, true)),
         "kite" => {
             // The corner at the far end is no narrower.
             let far = point(part * random.within(1.5, 1.9), 0.5 * angle);
