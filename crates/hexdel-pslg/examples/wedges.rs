@@ -2,8 +2,10 @@
 //! a frame, and prints what is exempt and what failed.
 //!
 //! ```text
-//! cargo run --release -p hexdel-pslg --example wedges [SEEDS] [NEEDLE]
+//! cargo run --release -p hexdel-pslg --example wedges [SEEDS] [NEEDLE] [alone]
 //! ```
+//!
+//! Needles that are alone have no frame.
 
 #[path = "../tests/support/cpu.rs"]
 mod cpu;
@@ -18,11 +20,15 @@ use std::io::Write;
 fn main() -> std::io::Result<()> {
     let seeds: u64 = std::env::args().nth(1).and_then(|a| a.parse().ok()).unwrap_or(20);
     let only = std::env::args().nth(2);
-    let extent = Extent::Inside;
+    let alone = std::env::args().nth(3).is_some_and(|a| a == "alone");
+    let (extent, place) = if alone { (Extent::Hexagon, "alone") } else { (Extent::Inside, "in a frame") };
     for name in support::NEEDLES.into_iter().filter(|n| only.as_deref().is_none_or(|o| o == *n)) {
-        for angle in [0.1, 0.2, 0.5, 1.0, 2.0, 5.0] {
-            let made = |seed| support::needle(name, angle, seed);
-            report(&format!("{name}, {angle} degrees, in a frame"), seeds, extent, made)?;
+        for angle in [0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0] {
+            let made = |seed| {
+                let needle = support::needle(name, angle, seed);
+                if alone { support::without_frame(needle) } else { needle }
+            };
+            report(&format!("{name}, {angle} degrees, {place}"), seeds, extent, made)?;
         }
     }
     if only.is_some() {

@@ -222,7 +222,8 @@ pub fn wedge(angle_deg: f64, seed: u64) -> Pslg {
 pub const NEEDLES: [&str; 7] = ["open", "even", "nearly even", "closed", "blunt", "kite", "on the side"];
 
 /// A frame of 8 by 6 with two segments in it, or a closed splinter, that meet at a
-/// small angle. Every other one is parallel to the frame.
+/// small angle. Every other one is parallel to the frame. A closed one has its
+/// third side nearly along the others; a blunt one nearly across.
 pub fn needle(name: &str, angle_deg: f64, seed: u64) -> Pslg {
     let mut random = Random::new(seed);
     let angle = angle_deg.to_radians();
@@ -252,6 +253,14 @@ pub fn needle(name: &str, angle_deg: f64, seed: u64) -> Pslg {
         _ => append(&mut pslg, &chain(&ends, false)),
     }
     pslg
+}
+
+/// A needle without the frame around it; not one on its side.
+pub fn without_frame(mut needle: Pslg) -> Pslg {
+    needle.points.drain(..4);
+    needle.segments.drain(..4);
+    needle.segments.iter_mut().flatten().for_each(|p| *p -= 4);
+    needle
 }
 
 /// Segments of different lengths from one point, evenly around it.
