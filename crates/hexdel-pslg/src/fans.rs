@@ -62,7 +62,7 @@ const GROWTH: f64 = 0.8;
 /// the corner, where that is not beside short edges of the ring. The larger, the
 /// shorter the strip beside the fan; but the longest edges of the ring must not be
 /// much longer than what is left to that thing.
-const CLEAR: f64 = 0.7;
+const CLEAR: f64 = 0.5;
 
 /// The radii of two rings over the distance of their centres.
 const CLEAR_OF_RING: f64 = 0.9;
