@@ -204,7 +204,7 @@ impl<'a> Spokes<'a> {
     fn fans(&self, input: &Validated, corners: &[&[Spoke]], most: &dyn Fn(DVec2) -> f64) -> Vec<Fan> {
         let rooms: FxHashMap<u32, Room> =
             corners.iter().map(|at| (at[0].site, self.room(input, at, corners))).collect();
-        let fan = |at: &&[Spoke]| {
+        let made = |at: &&[Spoke]| {
             let site = at[0].site;
             let room = &rooms[&site];
             // What one ring leaves of the distance is for the other.
@@ -212,22 +212,9 @@ impl<'a> Spokes<'a> {
                 f64::max(0.5 * CLEAR_OF_RING * distance, CLEAR_OF_RING * distance - rooms[&other].radius)
             };
             let clear = room.ringed.iter().map(left).fold(room.radius, f64::min);
-            self.fan(at, clear.min(most(self.scene.sites[site as usize])))
+            fan(at, clear.min(most(self.scene.sites[site as usize])))
         };
-        corners.iter().filter_map(fan).collect()
-    }
-
-    /// The fan at a corner, clear of all but free ends of its spokes.
-    fn fan(&self, at: &[Spoke], clear: f64) -> Option<Fan> {
-        let beside = beside(at, &divisions(at));
-        let free = || at.iter().zip(beside.iter().copied()).filter(|(s, _)| s.free);
-        let first = free().map(|(s, _)| s.length).fold(f64::INFINITY, f64::min);
-        let mut radius = clear.min(first);
-        let beyond = |(s, gap): (&Spoke, f64)| s.length / (1.0 + BEYOND * gap);
-        if !free().all(|(s, gap)| is_on_ring(s, gap, radius) || beyond((s, gap)) >= radius) {
-            radius = free().map(beyond).fold(radius, f64::min);
-        }
-        (radius > 0.0 && radius.is_finite()).then_some(Fan { site: at[0].site, radius })
+        corners.iter().filter_map(made).collect()
     }
 
     /// The room at a corner for a ring that is clear of other sites, but for free ends
@@ -286,6 +273,19 @@ impl<'a> Spokes<'a> {
         };
         Ring { fan, spokes: at.iter().zip(beside(at, &angles)).zip(angles).map(spoke).collect() }
     }
+}
+
+/// The fan at a corner, clear of all but free ends of its spokes.
+fn fan(at: &[Spoke], clear: f64) -> Option<Fan> {
+    let beside = beside(at, &divisions(at));
+    let free = || at.iter().zip(beside.iter().copied()).filter(|(s, _)| s.free);
+    let first = free().map(|(s, _)| s.length).fold(f64::INFINITY, f64::min);
+    let mut radius = clear.min(first);
+    let beyond = |(s, gap): (&Spoke, f64)| s.length / (1.0 + BEYOND * gap);
+    if !free().all(|(s, gap)| is_on_ring(s, gap, radius) || beyond((s, gap)) >= radius) {
+        radius = free().map(beyond).fold(radius, f64::min);
+    }
+    (radius > 0.0 && radius.is_finite()).then_some(Fan { site: at[0].site, radius })
 }
 
 /// The angles, from each spoke, at which a ring has vertices before the next: close
