@@ -233,16 +233,18 @@ fn ranked(
     let centre = if net.tri(t).alive() { t } else { grown.tris[0] };
     let possible = edits(net, centre, &grown.tris);
     net.rollback(mark);
-    let mut scored: Vec<(f64, Edit)> = possible
-        .into_iter()
-        .filter_map(|edit| {
-            let list: Vec<Edit> = done.iter().copied().chain([edit]).collect();
-            let mark = net.mark();
-            let left = carry_out(net, judge, patch, &list, false, solver);
-            net.rollback(mark);
-            Some((left?, edit))
-        })
-        .collect();
+    let mut scored: Vec<(f64, Edit)> = Vec::new();
+    for edit in possible {
+        let list: Vec<Edit> = done.iter().copied().chain([edit]).collect();
+        let mark = net.mark();
+        let left = carry_out(net, judge, patch, &list, false, solver);
+        net.rollback(mark);
+        scored.extend(left.map(|left| (left, edit)));
+        // No other can be better.
+        if left == Some(0.0) {
+            break;
+        }
+    }
     // Stable: equals stay in the order they are listed in.
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     scored.into_iter().map(|(_, edit)| edit).collect()
