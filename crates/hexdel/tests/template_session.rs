@@ -228,6 +228,31 @@ fn a_lattice_of_which_half_goes_is_as_good_as_at_once() {
 }
 
 #[test]
+fn the_lattice_follows_the_points() {
+    use generate::Kind::{Circle, Grid, Jittered, Spiral};
+    for kind in [Grid, Jittered, Circle, Spiral] {
+        let all = generate::generate(kind, 150, 2);
+        let mut session = TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap();
+        let near_at_once = |session: &TemplateSession| {
+            check(session);
+            let points: Vec<DVec2> = session.points().map(|p| p.1).collect();
+            let mut once = TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap();
+            once.insert_all(&points).unwrap();
+            let [now, once] = [session, &once].map(|s| s.counts()[2] as f64);
+            assert!((now / once - 1.0).abs() < 0.1, "{kind:?}: {now} triangles, {once} at once");
+        };
+        for &p in &all {
+            session.insert(p).unwrap();
+        }
+        near_at_once(&session);
+        for i in (0..150).step_by(2) {
+            session.remove(&[PointId(i)]).unwrap();
+        }
+        near_at_once(&session);
+    }
+}
+
+#[test]
 fn what_points_have_left_behind_can_be_taken_away() {
     // Half of a square lattice: its points hold each other down across all of it.
     let all = generate::generate(generate::Kind::Grid, 100, 0);

@@ -6,6 +6,7 @@
 //! their names, undo, and the mesh made anew where changes nearby do not
 //! suffice. `docs/sessions.md` explains the whole.
 
+mod any;
 mod error;
 mod graph;
 mod outcome;
@@ -22,6 +23,7 @@ use hexdel_optimize::{Effort, Sizing, kinds_of};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
+pub use any::AnySession;
 pub use error::SessionError;
 use graph::Frame;
 pub use graph::SessionCheck;
@@ -356,6 +358,20 @@ impl Session {
         }
         let (ids, points) = self.present();
         self.remesh(ids, &points, 2.0 * self.radius, self.size.clone())
+    }
+
+    /// Meshes all points anew in the same domain, as if they had come at once.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] if that fails.
+    ///
+    /// # Complexity
+    ///
+    /// That of a mesh made at once.
+    pub fn renew(&mut self) -> Result<Outcome, SessionError> {
+        let (ids, points) = self.present();
+        self.remesh(ids, &points, self.radius, self.size.clone())
     }
 
     /// Takes the last call back that changed something and is not taken back
