@@ -7,6 +7,7 @@
 //! suffice. `docs/sessions.md` explains the whole.
 
 mod any;
+mod divide;
 mod error;
 mod graph;
 mod outcome;
@@ -93,8 +94,8 @@ struct Undo {
 #[derive(Clone, Debug)]
 enum Before {
     Step(Step),
-    /// The whole mesh.
-    Whole(Box<LiveMesh>),
+    /// The whole mesh, and what of it lies on segments.
+    Whole(Box<LiveMesh>, Option<Arc<Frame>>),
 }
 
 impl Session {
@@ -204,8 +205,8 @@ impl Session {
                 }
                 Err(Refused::NoRoom) => {
                     self.abandon(before);
-                    if self.frame.is_some() {
-                        return Err(SessionError::NoRoom { at: point });
+                    if let Some(frame) = self.frame.clone() {
+                        return self.insert_by_remeshing_graph(&frame, points, point);
                     }
                     return self.insert_by_remeshing(points);
                 }
@@ -364,12 +365,17 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError`] if that fails.
+    /// [`SessionError`] if that fails, or the domain is that of a graph and not what its
+    /// segments enclose.
     ///
     /// # Complexity
     ///
     /// That of a mesh made at once.
     pub fn renew(&mut self) -> Result<Outcome, SessionError> {
+        if let Some(frame) = self.frame.clone() {
+            let anew = self.anew_with_segments(&frame, &[])?;
+            return Ok(self.replace_graph(anew));
+        }
         let (ids, points) = self.present();
         self.remesh(ids, &points, self.radius, self.size.clone())
     }
@@ -388,7 +394,10 @@ impl Session {
         let undo = self.history.pop_back().ok_or(SessionError::NothingToUndo)?;
         let (delta, remeshed) = match undo.mesh {
             Before::Step(step) => (self.live.undo(&step), false),
-            Before::Whole(old) => (self.live.replace_by(*old).1, true),
+            Before::Whole(old, frame) => {
+                self.frame = frame;
+                (self.live.replace_by(*old).1, true)
+            }
         };
         // All slots are freed before any is taken: some may change hands.
         for &(id, _) in &undo.points {

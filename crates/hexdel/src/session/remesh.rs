@@ -1,6 +1,6 @@
 //! All points meshed anew, where changes nearby do not suffice.
 
-use super::{Before, Outcome, PointId, Session, SessionError, Undo};
+use super::{Before, Frame, Outcome, PointId, Session, SessionError, Undo};
 use crate::mesher::{Mesher, Method};
 use crate::size::Size;
 use crate::triangulation::Triangulation;
@@ -24,6 +24,30 @@ impl Session {
         self.remesh(ids, &all, self.radius, self.size.clone())
     }
 
+    /// Meshes the graph anew, with more points, one of which found no room.
+    pub(super) fn insert_by_remeshing_graph(
+        &mut self,
+        frame: &Frame,
+        points: &[DVec2],
+        at: DVec2,
+    ) -> Result<Outcome, SessionError> {
+        if let Some(&at) = points.iter().find(|p| !p.is_finite()) {
+            return Err(SessionError::NotFinite { at });
+        }
+        let anew = self.anew_with_segments(frame, points).map_err(|error| match error {
+            // What has not come about, or is not taken for valid.
+            SessionError::Mesh(_) | SessionError::NotCertified { .. } => SessionError::NoRoom { at },
+            error => error,
+        })?;
+        Ok(self.replace_graph(anew))
+    }
+
+    /// Puts another mesh of the graph in the place of this one.
+    pub(super) fn replace_graph(&mut self, anew: Self) -> Outcome {
+        let slots = anew.of_slot.into_iter().map(|(slot, id)| (id, slot)).collect();
+        self.replace((anew.live, anew.frame), slots, self.radius, self.size.clone())
+    }
+
     /// Points and their places.
     pub(super) fn present(&self) -> (Vec<PointId>, Vec<DVec2>) {
         self.points().unzip()
@@ -45,7 +69,7 @@ impl Session {
             let mut anew = Self::empty(self.centre, radius)?;
             anew.bounds = self.bounds;
             anew.set_size(size)?;
-            return Ok(self.replace(anew.live, Vec::new(), radius, anew.size));
+            return Ok(self.replace((anew.live, None), Vec::new(), radius, anew.size));
         }
         let made = mesher.triangulate(points)?;
         let inputs = made.input_of_vertex();
@@ -59,19 +83,20 @@ impl Session {
         let mut live = LiveMesh::new(made.mesh, &kinds, self.bounds).map_err(crate::Error::Optimize)?;
         live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
         debug_assert_eq!(before, self.points.len());
-        Ok(self.replace(live, slots, radius, size))
+        Ok(self.replace((live, None), slots, radius, size))
     }
 
     /// Puts another mesh of points in the place of this one.
     fn replace(
         &mut self,
-        live: LiveMesh,
+        (live, frame): (LiveMesh, Option<Arc<Frame>>),
         slots: Vec<(PointId, u32)>,
         radius: f64,
         size: Option<Size>,
     ) -> Outcome {
         let before = self.points.len();
         let (old, delta) = self.live.replace_by(live);
+        let frame = std::mem::replace(&mut self.frame, frame);
         let mut points: Vec<Option<u32>> = vec![None; before];
         for &(id, slot) in &slots {
             let i = id.0 as usize;
@@ -83,7 +108,12 @@ impl Session {
         self.points = points;
         self.of_slot = slots.into_iter().map(|(id, slot)| (slot, id)).collect();
         let olds = (std::mem::replace(&mut self.size, size), std::mem::replace(&mut self.radius, radius));
-        self.push(Undo { mesh: Before::Whole(Box::new(old)), points: undo, size: olds.0, radius: olds.1 });
+        self.push(Undo {
+            mesh: Before::Whole(Box::new(old), frame),
+            points: undo,
+            size: olds.0,
+            radius: olds.1,
+        });
         let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
         Outcome { points, delta, remeshed: true }
     }
