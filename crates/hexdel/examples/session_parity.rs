@@ -2,10 +2,10 @@
 //! kinds of point sets, built one by one from nothing, from a tenth and from half, and
 //! with every other point taken out again.
 //!
-//! `cargo run --release -p hexdel --example session_parity -- templates|compact POINTS ..`
+//! `cargo run --release -p hexdel --example session_parity -- templates|compact POINTS|KIND ..`
 
 use hexdel::generate::{Kind, generate};
-use hexdel::{AnySession, DVec2, Mesher, Method, PointId, Pslg, SessionError};
+use hexdel::{AnySession, DVec2, Error, Mesher, Method, PointId, Pslg, SessionError};
 
 /// How a session comes to its points.
 #[derive(Clone, Copy)]
@@ -30,16 +30,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     println!("|---|---:|{}---:|", "---:|".repeat(WAYS.len()));
     let mut all = [Vec::new(), Vec::new()];
-    for n in args {
-        for kind in Kind::ALL {
+    let (numbers, names): (Vec<String>, Vec<String>) = args.partition(|a| a.parse::<usize>().is_ok());
+    for n in numbers {
+        for kind in Kind::ALL.into_iter().filter(|k| names.is_empty() || names.iter().any(|n| n == k.name()))
+        {
             let points = generate(kind, n.parse()?, 1);
             let (mut cells, mut anew) = (Vec::new(), 0);
             for (_, way) in WAYS {
                 let (session, remeshed) = run(&points, way, method)?;
                 let ratios = compare(session, method)?;
                 anew += remeshed;
-                cells.push(format!("{:.3}, {:.3}", ratios[0], ratios[1]));
-                all.iter_mut().zip(ratios).for_each(|(all, ratio)| all.push(ratio));
+                cells.push(ratios.map(|r| r.map_or("-".to_owned(), |r| format!("{r:.3}"))).join(", "));
+                all.iter_mut().zip(ratios).for_each(|(all, ratio)| all.extend(ratio));
             }
             println!("| {} | {n} | {} | {anew} |", kind.name(), cells.join(" | "));
         }
@@ -47,9 +49,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, ratios) in ["in the same domain", "in the tightest domain"].iter().zip(&mut all) {
         ratios.sort_by(f64::total_cmp);
         let at = |share: f64| ratios[((ratios.len() - 1) as f64 * share) as usize];
-        let outside = ratios.iter().filter(|r| (*r - 1.0).abs() > 0.1).count();
+        let [fewer, more] = [-1.0, 1.0].map(|s| ratios.iter().filter(|r| s * (*r - 1.0) > 0.1).count());
         println!(
-            "{name}: least {:.3}, median {:.3}, most {:.3}; {outside} of {} differ by more than a tenth",
+            "{name}: least {:.3}, median {:.3}, most {:.3}; of {} {more} are more by a tenth, {fewer} fewer",
             at(0.0),
             at(0.5),
             at(1.0),
@@ -72,21 +74,23 @@ fn run(points: &[DVec2], way: Way, method: Method) -> Result<(AnySession, usize)
     let mut session = if first == 0 {
         AnySession::empty(0.5 * (low + high), radius, method)?
     } else {
-        let begun = |radius| {
-            let mesher = mesher.clone().domain_radius(radius);
+        // Few points may lie where a small domain has no room for hexagons.
+        let mut begun = [1.0, 2.0, 4.0, 8.0].into_iter().map(|times| {
+            let mesher = mesher.clone().domain_radius(times * radius);
             AnySession::new(&Pslg::from_points(points[..first].to_vec()), &mesher)
-        };
-        if first < points.len() {
-            begun(radius).or_else(|_| begun(2.0 * radius))?
-        } else {
-            AnySession::new(&Pslg::from_points(points.to_vec()), &mesher)?
-        }
+        });
+        let all = || AnySession::new(&Pslg::from_points(points.to_vec()), &mesher);
+        if first == points.len() { all()? } else { begun.find_map(Result::ok).map_or_else(all, Ok)? }
     };
     let mut remeshed = 0;
     for &p in &points[first..] {
         let outcome = loop {
             match session.insert(p) {
-                Err(SessionError::Outside { .. } | SessionError::AtRim { .. }) => session.grow()?,
+                Err(
+                    SessionError::Outside { .. }
+                    | SessionError::AtRim { .. }
+                    | SessionError::Mesh(Error::DomainTooSmall { .. }),
+                ) => session.grow()?,
                 outcome => break outcome?,
             };
         };
@@ -100,11 +104,12 @@ fn run(points: &[DVec2], way: Way, method: Method) -> Result<(AnySession, usize)
     Ok((session, remeshed))
 }
 
-/// Triangles over those made at once, in the same domain and in the tightest.
-fn compare(mut session: AnySession, method: Method) -> Result<[f64; 2], SessionError> {
+/// Triangles over those made at once, in the same domain, if they fit, and in the tightest.
+fn compare(mut session: AnySession, method: Method) -> Result<[Option<f64>; 2], SessionError> {
     let now = session.counts()[2];
     let points: Vec<DVec2> = session.points().into_iter().map(|p| p.1).collect();
-    session.renew()?;
     let tightest = Mesher::new().method(method).triangulate(&points)?.mesh.triangles.len();
-    Ok([session.counts()[2], tightest].map(|once| now as f64 / once as f64))
+    // Points close to the rim may leave no room for the hexagons of a mesh made at once.
+    let here = session.renew().is_ok().then(|| session.counts()[2]);
+    Ok([here, Some(tightest)].map(|once| once.map(|once| now as f64 / once as f64)))
 }

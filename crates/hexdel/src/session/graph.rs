@@ -278,6 +278,7 @@ impl Session {
             points,
             of_slot,
             frame: Some(Arc::new(frame)),
+            changed: 0,
             history: VecDeque::new(),
         };
         let check = session.check();
