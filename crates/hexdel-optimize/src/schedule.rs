@@ -147,11 +147,18 @@ const BATCH: usize = 8;
 
 /// Triangles that are rescued in a mesh with segments, at most: each takes some
 /// tenths of a second.
-const FEW: usize = 4;
+const FEW: usize = 12;
 
 /// Triangles visited by projection sweeps for each of them, at most: those that
 /// are rescued at all took a million in the median, five at most.
 const RESCUE_VISITS: u64 = 4_000_000;
+
+/// The same for all of them together.
+const ALL_VISITS: u64 = 4 * RESCUE_VISITS;
+
+/// Rounds of search in a row that settle nothing in a mesh with segments, after which
+/// no other has.
+const IDLE_ROUNDS: usize = 2;
 
 /// Rounds of search that hopeless triangles take part in.
 const HOPEFUL_ROUNDS: usize = 2;
@@ -296,15 +303,24 @@ impl<'a> Run<'a> {
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
         self.guard = None;
+        let constrained = self.soup.is_constrained();
+        let (mut least, mut idle) = (usize::MAX, 0);
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
             let bad = self.hopeful(i < HOPEFUL_ROUNDS);
-            if bad.is_empty() {
+            idle = if bad.len() < least { 0 } else { idle + 1 };
+            if bad.is_empty() || constrained && idle >= IDLE_ROUNDS {
                 break;
             }
+            least = bad.len();
             let rings = SPOT_RINGS[i.min(SPOT_RINGS.len() - 1)];
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
             self.round_of(&cuts, |work| search(work, steps))?;
         }
+        self.rescue()
+    }
+
+    /// More vertices where search has given up.
+    fn rescue(&mut self) -> Result<(), Stop> {
         let constrained = self.soup.is_constrained();
         let mut least = usize::MAX;
         for rings in RESCUE_RINGS {
@@ -317,7 +333,8 @@ impl<'a> Run<'a> {
             }
             least = bad.len();
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
-            let allowance = if constrained { RESCUE_VISITS } else { u64::MAX };
+            let shared = RESCUE_VISITS.min(ALL_VISITS / bad.len() as u64);
+            let allowance = if constrained { shared } else { u64::MAX };
             self.round_of(&cuts, |work| rescue(work, allowance))?;
         }
         Ok(())

@@ -119,6 +119,9 @@ fn run(
     let mut left = mesher.left(&best);
     while !left.elsewhere.is_empty() && retries < options.retries && !deadline.is_over() {
         let ringed = mesher.note(&best, &left.elsewhere, &mut wishes);
+        if ringed > FEW_BESIDE_RINGS {
+            break;
+        }
         let net = match mesher.made(&wishes, monitor) {
             Ok(net) => net,
             Err(PslgError::Cancelled(c)) => return Err(c.into()),
@@ -129,7 +132,7 @@ fn run(
         let now = mesher.left(&net);
         if now.score() < left.score() {
             (best, left) = (net, now);
-        } else if ringed && vain < VAIN {
+        } else if ringed > 0 && vain < VAIN {
             vain += 1;
         } else {
             // What one more level has not helped is not for the next to help.
@@ -153,6 +156,10 @@ const SHRUNK: f64 = 0.84;
 
 /// Lattices that may be tried in vain.
 const VAIN: u32 = 2;
+
+/// Triangles beside rings up to which another lattice is tried: all of them must come
+/// out on the same one, and of those meshes with more none has.
+const FEW_BESIDE_RINGS: usize = 8;
 
 /// Lengths of a failed triangle's longest edge between it and the ring to blame.
 const BESIDE_RING: f64 = 4.0;
@@ -233,8 +240,8 @@ impl<'a> Mesher<'a> {
     }
 
     /// Notes what would help triangles that are left: another lattice beside rings,
-    /// smaller hexagons elsewhere. Whether there are any beside rings.
-    fn note(&self, net: &Net, left: &[u32], wishes: &mut Wishes) -> bool {
+    /// smaller hexagons elsewhere. How many there are beside rings.
+    fn note(&self, net: &Net, left: &[u32], wishes: &mut Wishes) -> usize {
         let (ringed, others): (Vec<u32>, Vec<u32>) =
             left.iter().partition(|&&t| self.judge().is_out(net, t) && self.is_beside_ring(net.corners(t)));
         wishes.demands.extend(others.into_iter().map(|t| demand_at(net, t)));
@@ -242,7 +249,7 @@ impl<'a> Mesher<'a> {
             let lattice = wishes.lattice;
             wishes.lattice = Lattice::new(lattice.origin(), SHRUNK * lattice.spacing(0));
         }
-        !ringed.is_empty()
+        ringed.len()
     }
 
     /// Whether a triangle is beside the ring of a fan.

@@ -54,7 +54,8 @@ pub struct Options {
     /// The most triangles that may come to be.
     pub max_triangles: usize,
     /// How often the mesh is made anew with smaller triangles where bounds
-    /// were not met. It ends before with the first time that is no better.
+    /// were not met. It ends before with the first time that is no better, and where too
+    /// much is left beside narrow corners for one mesh to settle all of it.
     pub retries: u32,
     /// Wall-clock limit of what makes a mesh better once there is one. Without
     /// one the result depends on the input alone; with one, also on the speed of

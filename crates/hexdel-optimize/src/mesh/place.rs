@@ -24,7 +24,7 @@ impl Mesh {
     /// Whether an edge joins `v` to a segment or point.
     pub(crate) fn touches_source(&self, v: u32) -> bool {
         let mut found = false;
-        self.around(v, |t, _| found |= self.tri[t as usize].v.iter().any(|&w| self.is_source(w, v)));
+        self.around(v, |t, _| found = found || self.tri[t as usize].v.iter().any(|&w| self.is_source(w, v)));
         found
     }
 

@@ -159,8 +159,12 @@ pub(crate) fn is_starved(net: &Net, v: u32) -> bool {
 
 /// The penalty of a triangle against limits.
 pub(crate) fn penalty(corners: [DVec2; 3], limits: [Limits; 3]) -> f64 {
+    penalty_of(quality::angles_deg(corners), limits, corners)
+}
+
+/// The same with the angles known.
+pub(crate) fn penalty_of(angles: [f64; 3], limits: [Limits; 3], corners: [DVec2; 3]) -> f64 {
     let tolerance = TOLERANCE_DEG + quality::rounding_deg(corners);
-    let angles = quality::angles_deg(corners);
     (0..3)
         .map(|i| {
             let past = (limits[i][0] - angles[i]).max(angles[i] - limits[i][1]);

@@ -5,7 +5,7 @@
 //! Free vertices move in the plane, those on a segment along it. Angles are
 //! signed, so that a triangle that is turned over comes back.
 
-use super::judge::{Judge, Limits, penalty};
+use super::judge::{Judge, Limits, penalty_of};
 use crate::net::{Kind, Net};
 use hexdel_geom::{DVec2, quality};
 
@@ -23,6 +23,9 @@ const LEAST_DAMPING: f64 = 1e-6;
 const RELAX: f64 = 0.3;
 const TIGHTEN: f64 = 4.0;
 
+/// Degrees inside of what is aimed at from which on no angle has to be worked out.
+const CLEAR_DEG: f64 = 1e-6;
+
 /// Tries at a step, and steps without a gain of [`WORTHWHILE`] in a row.
 const TRIES: u32 = 8;
 const PATIENCE: u32 = 5;
@@ -39,6 +42,53 @@ struct Local {
     along: Option<DVec2>,
 }
 
+/// A triangle of the problem.
+struct Triangle {
+    corners: [u32; 3],
+    limits: [Limits; 3],
+    clear: [Cot; 3],
+}
+
+impl Triangle {
+    /// Its angles, degrees, unless all are clearly inside of what is aimed at.
+    fn angles(&self, locals: &[Local]) -> Option<[f64; 3]> {
+        let p = self.corners.map(|v| locals[v as usize].at);
+        let is_clear = |i: usize| {
+            let (u, w) = (p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
+            let (cross, dot) = (u.perp_dot(w), u.dot(w));
+            let [most, least] = self.clear[i];
+            cross > 0.0 && dot < most * cross && dot > least * cross
+        };
+        (!(0..3).all(is_clear)).then(|| quality::angles_deg(p))
+    }
+}
+
+/// The cotangents of the smallest and the largest angle that is clearly inside.
+type Cot = [f64; 2];
+
+/// The cotangents of limits.
+#[derive(Default)]
+struct Cots(Vec<(Limits, Cot)>);
+
+impl Cots {
+    /// Limits are few.
+    fn of(&mut self, limits: Limits) -> Cot {
+        if let Some(known) = self.0.iter().find(|known| known.0 == limits) {
+            return known.1;
+        }
+        let cot = |deg: f64| {
+            let (sin, cos) = libm::sincos(deg.to_radians());
+            cos / sin
+        };
+        let [lo, hi] = limits;
+        let inset = SLACK_DEG + CLEAR_DEG;
+        // From 0 on any corner that is not turned over is clear.
+        let clear = [if lo > 0.0 { cot(lo + inset) } else { f64::INFINITY }, cot(hi - inset)];
+        self.0.push((limits, clear));
+        clear
+    }
+}
+
 /// A problem of least squares, with the memory of the last one used again.
 #[derive(Default)]
 pub(crate) struct Levenberg {
@@ -48,12 +98,17 @@ pub(crate) struct Levenberg {
     locals: Vec<Local>,
     /// Vertices of the net, parallel to `locals`.
     names: Vec<u32>,
-    tris: Vec<([u32; 3], [Limits; 3])>,
+    tris: Vec<Triangle>,
+    cots: Cots,
     unknowns: usize,
     scale: f64,
+    /// The upper half of the normal equations' matrix, row by row.
     matrix: Vec<f64>,
+    /// Its Cholesky factor, transposed, row by row.
+    factor: Vec<f64>,
     gradient: Vec<f64>,
     step: Vec<f64>,
+    sums: Vec<f64>,
     trial: Vec<Local>,
 }
 
@@ -126,7 +181,8 @@ impl Levenberg {
                 }
                 self.slots[v as usize]
             });
-            self.tris.push((corners, judge.limits(net, t)));
+            let limits = judge.limits(net, t);
+            self.tris.push(Triangle { corners, limits, clear: limits.map(|l| self.cots.of(l)) });
             let [a, b, _] = net.corners(t);
             length += a.distance(b);
         }
@@ -137,19 +193,20 @@ impl Levenberg {
     }
 
     fn penalty(&self, locals: &[Local]) -> f64 {
-        let of = |&(v, limits): &([u32; 3], [Limits; 3])| penalty(v.map(|v| locals[v as usize].at), limits);
+        let of = |t: &Triangle| {
+            t.angles(locals)
+                .map_or(0.0, |angles| penalty_of(angles, t.limits, t.corners.map(|v| locals[v as usize].at)))
+        };
         self.tris.iter().map(of).sum()
     }
 
     /// The cost that is minimised, with slack.
     fn cost(&self, locals: &[Local]) -> f64 {
-        self.tris
-            .iter()
-            .map(|&(v, limits)| {
-                let angles = quality::angles_deg(v.map(|v| locals[v as usize].at));
-                (0..3).map(|i| residual(angles[i], limits[i]).map_or(0.0, |(r, _)| r * r)).sum::<f64>()
-            })
-            .sum()
+        let of = |t: &Triangle| {
+            let square = |(angle, limits)| residual(angle, limits).map_or(0.0, |(r, _)| r * r);
+            t.angles(locals).map_or(0.0, |angles| angles.into_iter().zip(t.limits).map(square).sum())
+        };
+        self.tris.iter().map(of).sum()
     }
 
     fn descend(&mut self, net: &Net, iterations: u32) {
@@ -198,11 +255,12 @@ impl Levenberg {
         self.gradient.clear();
         self.gradient.resize(n, 0.0);
         let unit = self.scale.to_degrees();
-        for &(v, limits) in &self.tris {
+        for t in &self.tris {
+            let Some(angles) = t.angles(&self.locals) else { continue };
+            let v = t.corners;
             let p = v.map(|v| self.locals[v as usize].at);
-            let angles = quality::angles_deg(p);
-            for i in 0..3 {
-                let Some((r, sign)) = residual(angles[i], limits[i]) else { continue };
+            for (i, angle) in angles.into_iter().enumerate() {
+                let Some((r, sign)) = residual(angle, t.limits[i]) else { continue };
                 let [a, b, c] = [i, (i + 1) % 3, (i + 2) % 3];
                 let (u, w) = (p[b] - p[a], p[c] - p[a]);
                 let to_c = w.perp() / w.length_squared();
@@ -218,35 +276,59 @@ impl Levenberg {
     /// the way.
     fn solve(&mut self, damping: f64) -> bool {
         let n = self.unknowns;
-        let mut l = self.matrix.clone();
-        for i in 0..n {
-            l[i * n + i] += damping;
+        if !self.factorise(damping) {
+            return false;
         }
-        for i in 0..n {
-            for j in 0..=i {
-                let dot: f64 = (0..j).map(|k| l[i * n + k] * l[j * n + k]).sum();
-                let rest = l[i * n + j] - dot;
-                if i == j {
-                    if rest.is_nan() || rest <= 0.0 {
-                        return false;
-                    }
-                    l[i * n + i] = rest.sqrt();
-                } else {
-                    l[i * n + j] = rest / l[j * n + j];
-                }
-            }
-        }
+        let l = &self.factor;
         self.step.clear();
         self.step.extend(self.gradient.iter().map(|g| -g));
+        self.sums.clear();
+        self.sums.resize(n, -0.0);
         for i in 0..n {
-            let dot: f64 = (0..i).map(|k| l[i * n + k] * self.step[k]).sum();
-            self.step[i] = (self.step[i] - dot) / l[i * n + i];
+            let solved = (self.step[i] - self.sums[i]) / l[i * n + i];
+            self.step[i] = solved;
+            add_multiple(&mut self.sums[i + 1..], &l[i * n + i + 1..][..n - i - 1], solved);
         }
         for i in (0..n).rev() {
-            let dot: f64 = (i + 1..n).map(|k| l[k * n + i] * self.step[k]).sum();
+            let dot: f64 = (i + 1..n).map(|k| l[i * n + k] * self.step[k]).sum();
             self.step[i] = (self.step[i] - dot) / l[i * n + i];
         }
         self.step.iter().all(|x| x.is_finite())
+    }
+
+    /// The damped matrix's factor. Its rows are summed up side by side, each entry
+    /// in the order of a dot product.
+    fn factorise(&mut self, damping: f64) -> bool {
+        let n = self.unknowns;
+        self.factor.clear();
+        self.factor.resize(n * n, 0.0);
+        for j in 0..n {
+            let (done, row) = self.factor.split_at_mut(j * n);
+            self.sums.clear();
+            self.sums.resize(n - j, -0.0);
+            // Vertices that are far apart know nothing of each other.
+            for above in done.chunks_exact(n).filter(|above| above[j] != 0.0) {
+                add_multiple(&mut self.sums, &above[j..], above[j]);
+            }
+            let given = &self.matrix[j * n + j..][..n - j];
+            let rest = given[0] + damping - self.sums[0];
+            if rest.is_nan() || rest <= 0.0 {
+                return false;
+            }
+            let pivot = rest.sqrt();
+            row[j] = pivot;
+            for ((to, a), sum) in row[j + 1..n].iter_mut().zip(&given[1..]).zip(&self.sums[1..]) {
+                *to = (a - sum) / pivot;
+            }
+        }
+        true
+    }
+}
+
+/// Adds a multiple of a row to another.
+fn add_multiple(to: &mut [f64], row: &[f64], factor: f64) {
+    for (to, x) in to.iter_mut().zip(row) {
+        *to += x * factor;
     }
 }
 
@@ -263,7 +345,7 @@ fn residual(angle: f64, [lo, hi]: Limits) -> Option<(f64, f64)> {
     }
 }
 
-/// Adds one residual and its derivatives to the normal equations (the lower
+/// Adds one residual and its derivatives to the normal equations (the upper
 /// half of the matrix).
 fn add_row(matrix: &mut [f64], gradient: &mut [f64], n: usize, row: &[(Local, DVec2); 3], r: f64) {
     let mut entries = [(0, 0.0); 6];
@@ -282,7 +364,7 @@ fn add_row(matrix: &mut [f64], gradient: &mut [f64], n: usize, row: &[(Local, DV
     for &(i, gi) in &entries[..count] {
         gradient[i] += gi * r;
         for &(j, gj) in &entries[..count] {
-            if j <= i {
+            if j >= i {
                 matrix[i * n + j] += gi * gj;
             }
         }

@@ -25,6 +25,8 @@ use hexdel_geom::monitor::{Cancelled, Monitor, Phase, check};
 use judge::{FAR_RING, Judge, is_starved};
 use levenberg::Levenberg;
 use patch::Patch;
+use rustc_hash::{FxHashSet, FxHasher};
+use std::hash::{Hash, Hasher};
 
 /// The first phase: edges around a bad triangle that move, and how far from
 /// points and segments.
@@ -40,12 +42,16 @@ const CANDIDATES: usize = 12;
 /// Edits from which a second one is tried.
 const BRANCHES: usize = 4;
 
-/// Searches of depth one that an optimisation may take, if it has not more bad
-/// triangles than that; each takes some ten milliseconds.
-const SEARCH_BUDGET: u32 = 200;
+/// Searches of depth two that may be in vain: each takes some tens of milliseconds,
+/// and graphs that come out take less than ten.
+const VAIN: usize = 16;
 
-/// What a search of depth two costs in those of depth one.
-const DEEP_COST: u32 = 1 + BRANCHES as u32;
+/// Bad triangles in a patch from which on no search of depth two is tried: of 82
+/// with so many one settled.
+const CROWD: usize = 10;
+
+/// Searches in vain that one which settles its patch makes good.
+const SETTLED: usize = 4;
 
 /// Counts each vertex's edges to the nearest point or segment.
 pub(crate) fn count_rings(net: &mut Net) {
@@ -106,7 +112,7 @@ pub(crate) fn optimise(
         }
     }
     count_rings(net);
-    let mut budget = SEARCH_BUDGET.max(2 * bad_triangles(net, judge).len() as u32);
+    let mut patience = Patience::new();
     for (sweep, (ring, depth)) in SEARCHES.into_iter().enumerate() {
         count_rings(net);
         let bad = bad_triangles(net, judge);
@@ -118,16 +124,53 @@ pub(crate) fn optimise(
             if deadline.is_over() {
                 break;
             }
-            let cost = if depth > 1 { DEEP_COST } else { 1 };
-            if budget >= cost {
-                budget -= cost;
-                search(net, judge, t, ring, depth, &mut solver);
-                net.commit();
+            let patch = Patch::around(net, t, 2, ring);
+            if depth > 1 && !patience.has_hope(net, judge, t, &patch, ring) {
+                continue;
             }
+            let settled = search(net, judge, t, &patch, depth, &mut solver);
+            if depth > 1 {
+                patience.note(settled);
+            }
+            net.commit();
         }
     }
     count_rings(net);
     Ok(())
+}
+
+/// How long deep searches go on. Where several features crowd a spot none may settle
+/// it, and each takes as long as thousands of ordinary triangles.
+struct Patience {
+    left: usize,
+    /// Patches that have been searched, as they were.
+    tried: FxHashSet<u64>,
+}
+
+impl Patience {
+    fn new() -> Self {
+        Self { left: VAIN, tried: FxHashSet::default() }
+    }
+
+    /// Whether a search around a triangle is worth its time: not in a crowd, nor where
+    /// it would be the same as one before.
+    fn has_hope(&mut self, net: &Net, judge: Judge<'_>, t: u32, patch: &Patch, ring: u32) -> bool {
+        let bad = patch.tris.iter().filter(|&&t| judge.penalty(net, t) > 0.0).count();
+        if self.left == 0 || bad >= CROWD {
+            return false;
+        }
+        let mut hasher = FxHasher::default();
+        (t, ring, patch.movable.len()).hash(&mut hasher);
+        for &s in &patch.tris {
+            (s, net.tri(s).v).hash(&mut hasher);
+            net.corners(s).iter().for_each(|p| p.to_array().map(f64::to_bits).hash(&mut hasher));
+        }
+        self.tried.insert(hasher.finish())
+    }
+
+    fn note(&mut self, settled: bool) {
+        self.left = if settled { self.left + SETTLED } else { self.left - 1 };
+    }
 }
 
 /// Takes out free vertices near segments that have too few triangles.
@@ -169,30 +212,38 @@ fn mend(net: &mut Net, judge: Judge<'_>, t: u32, reach: u32, ring: u32, solver: 
     net.commit();
 }
 
-/// Tries edits around a bad triangle and keeps the best, if it is any good.
-fn search(net: &mut Net, judge: Judge<'_>, t: u32, ring: u32, depth: u32, solver: &mut Levenberg) {
-    let patch = Patch::around(net, t, 2, ring);
+/// Tries edits around a bad triangle and keeps the best, if it is any good. Whether
+/// all of the patch is in order then.
+fn search(
+    net: &mut Net,
+    judge: Judge<'_>,
+    t: u32,
+    patch: &Patch,
+    depth: u32,
+    solver: &mut Levenberg,
+) -> bool {
     let before = judge.sum(net, &patch.tris);
     let mut best: (f64, Vec<Edit>) = (before, Vec::new());
-    let first = ranked(net, judge, t, &patch, &[], solver);
+    let first = ranked(net, judge, t, patch, &[], solver);
     for edit in first.iter().take(CANDIDATES) {
-        if consider(net, judge, &patch, vec![*edit], &mut best, solver) {
+        if consider(net, judge, patch, vec![*edit], &mut best, solver) {
             break;
         }
     }
     if depth > 1 && best.0 > 0.0 {
         'outer: for &edit in first.iter().take(BRANCHES) {
-            for next in ranked(net, judge, t, &patch, &[edit], solver).into_iter().take(CANDIDATES) {
-                if consider(net, judge, &patch, vec![edit, next], &mut best, solver) {
+            for next in ranked(net, judge, t, patch, &[edit], solver).into_iter().take(CANDIDATES) {
+                if consider(net, judge, patch, vec![edit, next], &mut best, solver) {
                     break 'outer;
                 }
             }
         }
     }
     if best.0 < before {
-        let left = carry_out(net, judge, &patch, &best.1, true, solver);
+        let left = carry_out(net, judge, patch, &best.1, true, solver);
         debug_assert!(left.is_some_and(|left| left == best.0), "the same edits do the same");
     }
+    best.0 == 0.0
 }
 
 /// Works an edit out and remembers it if it is the best so far. Whether it is
@@ -233,16 +284,18 @@ fn ranked(
     let centre = if net.tri(t).alive() { t } else { grown.tris[0] };
     let possible = edits(net, centre, &grown.tris);
     net.rollback(mark);
-    let mut scored: Vec<(f64, Edit)> = possible
-        .into_iter()
-        .filter_map(|edit| {
-            let list: Vec<Edit> = done.iter().copied().chain([edit]).collect();
-            let mark = net.mark();
-            let left = carry_out(net, judge, patch, &list, false, solver);
-            net.rollback(mark);
-            Some((left?, edit))
-        })
-        .collect();
+    let mut scored: Vec<(f64, Edit)> = Vec::new();
+    for edit in possible {
+        let list: Vec<Edit> = done.iter().copied().chain([edit]).collect();
+        let mark = net.mark();
+        let left = carry_out(net, judge, patch, &list, false, solver);
+        net.rollback(mark);
+        scored.extend(left.map(|left| (left, edit)));
+        // No other can be better.
+        if left == Some(0.0) {
+            break;
+        }
+    }
     // Stable: equals stay in the order they are listed in.
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     scored.into_iter().map(|(_, edit)| edit).collect()
