@@ -74,6 +74,8 @@ pub use hexdel_geom::{
 pub use hexdel_optimize::Effort;
 pub use hexdel_pslg::SegmentMethod;
 pub use mesher::{Mesher, Method, Start, triangulate};
-pub use session::{Outcome, PointId, Session, SessionCheck, SessionError, SessionMesh, TemplateSession};
+pub use session::{
+    AnySession, Outcome, PointId, Session, SessionCheck, SessionError, SessionMesh, TemplateSession,
+};
 pub use size::{Size, SizeError};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

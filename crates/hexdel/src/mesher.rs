@@ -396,7 +396,7 @@ impl Mesher {
             return Err(Error::BoundsBeyondMethod { asked: bounds, kept });
         }
         let set = PointSet::new(points)?;
-        let placement = Placement::around(&set, self.domain_radius, self.centre)?;
+        let placement = Placement::around(&set, self.domain_radius, self.centre, self.method)?;
         self.check_size(&placement)?;
         let input = Input { points, set: &set, placement: &placement };
         let mut again = Again::new(monitor);
@@ -497,7 +497,7 @@ impl Mesher {
     /// and the steps of that to the corners.
     pub(crate) fn coarsest_lattice(&self, points: &[DVec2]) -> Result<(Lattice, u32), Error> {
         let set = PointSet::new(points)?;
-        let placement = Placement::around(&set, self.domain_radius, self.centre)?;
+        let placement = Placement::around(&set, self.domain_radius, self.centre, Method::Templates)?;
         let mut refiner = Refiner::new(placement.lattice, Start::Templates.rules(self.effort));
         self.on_threads(|| {
             let refined = refiner.insert(set.sites(), &Unwatched);

@@ -7,6 +7,7 @@
 //! is the last. The spacing of level 0 is chosen as a power of two times it.
 
 use crate::error::Error;
+use crate::mesher::Method;
 use hexdel_classify::{Domain, Relocation};
 use hexdel_geom::{Circle, ClosestPair, DVec2, PointSet, closest_pair, smallest_enclosing_circle};
 use hexdel_grid::{Grid, Lattice};
@@ -35,10 +36,18 @@ const LAST_PLACES: f64 = 65536.0;
 /// coarser levels than the input's own size are never of use.
 const LEVEL_0_SPACINGS: f64 = 4.0;
 
-/// Steps from the centre of level 0 to the rim, when a radius is prescribed:
-/// with these and powers of two, a spacing is never more than 4/3 too fine,
-/// and the shortest edge stays above the paper's bound (6 / 4.15 = 1.44).
-const STEPS: [u32; 3] = [3, 4, 5];
+/// The fewest steps from the centre of level 0 to the rim, and the most for few points,
+/// when a radius is prescribed: with these and powers of two, a spacing is never more than
+/// 4/3 too fine, and the shortest edge stays above the paper's bound (6 / 4.15 = 1.44).
+const STEPS: [u32; 2] = [3, 5];
+
+/// The most for templates of so many points and more: a spacing is never more than 25/24, 13/12
+/// and 7/6 too fine, and what more hexagons along the rim cost is a few hundredths.
+const MOST_STEPS: [(usize, u32); 3] = [(2000, 47), (500, 23), (100, 11)];
+
+/// Spacings are about the same up to this factor: a hundredth of one is less than what the
+/// centre's place among the points does.
+pub(crate) const ALIKE: f64 = 1.01;
 
 /// The lattice for a set of sites.
 #[derive(Clone, Copy, Debug)]
@@ -54,11 +63,12 @@ pub(crate) struct Placement {
 
 impl Placement {
     /// Lays the grid around a centre, by default that of the sites' smallest
-    /// enclosing circle.
+    /// enclosing circle, for a method.
     pub(crate) fn around(
         points: &PointSet,
         radius: Option<f64>,
         centre: Option<DVec2>,
+        method: Method,
     ) -> Result<Self, Error> {
         check_range(points)?;
         if let Some(radius) = radius.filter(|r| !(r.is_finite() && *r > 0.0)) {
@@ -82,8 +92,9 @@ impl Placement {
                 (doubled(finest, levels), None, levels)
             }
             Some(radius) => {
-                let (steps, levels) = steps_for(radius, finest);
-                (radius / f64::from(steps), Some(steps), levels)
+                let steps = steps_for(radius, pair.distance, most_steps(method, sites.len()));
+                let spacing = radius / f64::from(steps);
+                (spacing, Some(steps), levels_between(spacing, finest))
             }
         };
         if last_level >= Grid::MAX_LEVELS {
@@ -155,14 +166,29 @@ fn halved(length: f64, times: u8) -> f64 {
     (0..times).fold(length, |length, _| 0.5 * length)
 }
 
-/// Steps of level 0 to the rim, and levels, such that the last level is just
-/// fine enough.
-fn steps_for(radius: f64, finest: f64) -> (u32, u8) {
-    let fits = |&(steps, levels): &(u32, u8)| halved(radius / f64::from(steps), levels) <= finest;
-    (0..=u8::MAX)
-        .flat_map(|levels| STEPS.map(|steps| (steps, levels)))
-        .find(fits)
-        .unwrap_or((STEPS[0], u8::MAX))
+/// The most steps of level 0 to the rim in a mesh of so many points, if a radius is prescribed.
+pub(crate) fn most_steps(method: Method, points: usize) -> u32 {
+    let most = MOST_STEPS.into_iter().find(|most| method == Method::Templates && points >= most.0);
+    most.map_or(STEPS[1], |most| most.1)
+}
+
+/// How many times finer than the closest pair asks for the first level is that is fine
+/// enough for it: from 1, as where no radius is prescribed, to 2.
+pub(crate) fn excess(spacing: f64, pair: f64) -> f64 {
+    let finest = pair / CONFLICT_REACH;
+    finest / halved(spacing, levels_between(spacing, finest))
+}
+
+/// Steps to the rim of a radius, from the fewest there are to so many, with the least
+/// [`excess`]; the fewest of those with about the same.
+///
+/// Points at regular distances are in conflict or not by hundredths of the spacing, and
+/// take up to three times as many triangles with one as with another.
+pub(crate) fn steps_for(radius: f64, pair: f64, most: u32) -> u32 {
+    let excess = |steps: u32| excess(radius / f64::from(steps), pair);
+    let all = STEPS[0]..=most.max(STEPS[0]);
+    let least = all.clone().map(excess).fold(f64::INFINITY, f64::min);
+    all.into_iter().find(|&steps| excess(steps) <= least * ALIKE).unwrap_or(STEPS[0])
 }
 
 fn check_range(points: &PointSet) -> Result<(), Error> {
@@ -261,22 +287,27 @@ mod tests {
     #[test]
     fn a_domain_beyond_all_levels_is_named() {
         let points = PointSet::new(&[DVec2::ZERO, DVec2::X]).unwrap();
-        let Err(Error::DomainTooLarge { radius, most }) = Placement::around(&points, Some(1e100), None)
+        let Err(Error::DomainTooLarge { radius, most }) =
+            Placement::around(&points, Some(1e100), None, Method::Compact)
         else {
             panic!("1e100 is a large domain for points 1 apart");
         };
         assert!(radius == 1e100 && most < 1e100);
-        assert!(Placement::around(&points, Some(most), None).is_ok());
+        assert!(Placement::around(&points, Some(most), None, Method::Compact).is_ok());
     }
 
     #[test]
     fn a_prescribed_radius_makes_the_last_level_just_fine_enough() {
-        for i in 1..200 {
-            let (radius, finest) = (3.7, 0.013 * f64::from(i));
-            let (steps, levels) = steps_for(radius, finest);
-            let last = halved(radius / f64::from(steps), levels);
-            assert!(last <= finest);
-            assert!(levels == 0 && steps == 3 || last >= finest * 0.75 * (1.0 - 1e-12), "{last} {finest}");
+        for (most, times) in [(5, 4.0 / 3.0), (11, 7.0 / 6.0), (23, 13.0 / 12.0), (47, 25.0 / 24.0)] {
+            for i in 1..200 {
+                let (radius, finest) = (3.7, 0.013 * f64::from(i));
+                let steps = steps_for(radius, finest * CONFLICT_REACH, most);
+                let spacing = radius / f64::from(steps);
+                let last = halved(spacing, levels_between(spacing, finest));
+                assert!(steps <= most && last <= finest);
+                let levels = levels_between(radius, finest);
+                assert!(levels < 6 || last * times * ALIKE >= finest, "{last} {finest}");
+            }
         }
     }
 }

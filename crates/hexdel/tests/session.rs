@@ -291,3 +291,32 @@ fn texts_that_are_no_sessions_are_refused() {
     session.set_size(Some(by_function)).unwrap();
     assert_eq!(session.to_ron(), Err(SessionError::CannotSave));
 }
+
+#[test]
+fn small_sessions_have_hardly_more_triangles_than_meshes_made_at_once() {
+    // Close pairs leave finely graded triangles behind.
+    let all = generate::generate(generate::Kind::Pairs, 12, 1);
+    let mut session = Session::empty(DVec2::splat(0.5), 1.0).unwrap();
+    let mut remeshed = 0;
+    for &p in &all {
+        let mut copy = Copy::of(&session);
+        let outcome = session.insert(p).unwrap();
+        copy.follow(&outcome.delta);
+        assert!(copy == Copy::of(&session));
+        remeshed += usize::from(outcome.remeshed);
+        check(&session);
+    }
+    assert!(remeshed > 0);
+    let saved = session.to_ron().unwrap();
+    let now = session.counts()[2];
+    session.renew().unwrap();
+    assert!(now as f64 <= 1.1 * session.counts()[2] as f64, "{now} triangles, {:?}", session.counts());
+    for _ in 0..=all.len() {
+        session.undo().unwrap();
+        check(&session);
+    }
+    assert_eq!(session.undo(), Err(SessionError::NothingToUndo));
+    let mut again = Session::from_ron(&saved).unwrap();
+    again.remove(&[PointId(3)]).unwrap();
+    check(&again);
+}

@@ -231,6 +231,69 @@ fn fans_stay_in_narrow_corners() {
 }
 
 #[test]
+fn where_there_is_no_room_the_graph_is_meshed_anew() {
+    let mut session = Session::with_segments(&fixture("narrow"), &Mesher::new()).unwrap();
+    session.insert_all(&[DVec2::new(3.0, 1.0), DVec2::new(5.0, 0.0)]).unwrap();
+    // In a fan: its triangles are as they are.
+    let fan = DVec2::new(6.9, 3.0);
+    let mut copy = Copy::of(&session);
+    let before = session.mesh();
+    let change = session.insert(fan).unwrap();
+    assert!(change.remeshed);
+    check(&session);
+    copy.follow(&change.delta);
+    assert!(copy == Copy::of(&session));
+    let text = session.to_ron().unwrap();
+    assert_eq!(Session::from_ron(&text).unwrap().to_ron().unwrap(), text);
+    copy.follow(&session.undo().unwrap().delta);
+    assert!(copy == Copy::of(&session) && session.mesh() == before);
+    check(&session);
+    let again = session.insert(fan).unwrap();
+    session.remove(&again.points).unwrap();
+    check(&session);
+}
+
+#[test]
+fn points_on_segments_are_no_ends_of_them_when_the_graph_is_meshed_anew() {
+    let graph = plate();
+    let mut session = Session::with_segments(&graph, &Mesher::new()).unwrap();
+    let [a, b] = [graph.points[4], graph.points[5]];
+    let on = [0.5 * (a + b), a + 0.123 * (b - a), DVec2::new(0.4, 0.0), DVec2::new(2.0, 1.0)];
+    let ids = session.insert_all(&on).unwrap().points;
+    session.remove(&[PointId(6)]).unwrap();
+    let before = session.mesh();
+    let mut copy = Copy::of(&session);
+    let change = session.renew().unwrap();
+    assert!(change.remeshed);
+    copy.follow(&change.delta);
+    assert!(copy == Copy::of(&session));
+    check(&session);
+    let made = session.mesh();
+    let ends = |made: &SessionMesh| -> Vec<PointId> { made.points.iter().map(|p| p.0).collect() };
+    assert_eq!(ends(&made), ends(&before));
+    let row: Vec<_> = made.edges.iter().filter(|e| e.segment == Some(6)).collect();
+    assert!(row.windows(2).all(|w| w[0].ends[1] == w[1].ends[0]) && row.iter().all(|e| e.marker == 7));
+    assert_eq!(session.check().segments.segments, 7);
+    session.remove(&ids).unwrap();
+    check(&session);
+    for _ in 0..2 {
+        session.undo().unwrap();
+        check(&session);
+    }
+    assert!(session.mesh() == before);
+}
+
+#[test]
+fn a_size_given_at_the_beginning_is_that_of_a_mesh_made_at_once() {
+    let size = Size::constant(0.4).unwrap();
+    let mesher = Mesher::new().size(size);
+    let session = Session::with_segments(&plate(), &mesher).unwrap();
+    check(&session);
+    let made = mesher.triangulate_pslg(&plate()).unwrap();
+    assert_eq!(session.counts()[1..], [made.mesh.vertices.len(), made.mesh.triangles.len()]);
+}
+
+#[test]
 fn bad_calls_are_named_and_change_nothing() {
     let graph = fixture("square_with_hole");
     let mut session = Session::with_segments(&graph, &Mesher::new()).unwrap();

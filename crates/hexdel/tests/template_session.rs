@@ -4,10 +4,9 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 #[path = "common/sessions.rs"]
-#[allow(dead_code, reason = "sessions of both kinds share it")]
 mod common;
 
-use common::Copy;
+use common::{Copy, refused};
 use hexdel::optimize::triangle_fits;
 use hexdel::{
     DVec2, Mesher, Method, Outcome, PointId, SessionError, Size, SizeError, TemplateSession, VertexId,
@@ -17,20 +16,6 @@ use proptest::prelude::*;
 
 fn points(n: usize, seed: u64) -> Vec<DVec2> {
     generate::generate(generate::Kind::Uniform, n, seed)
-}
-
-fn copy(session: &TemplateSession) -> Copy {
-    let made = session.mesh();
-    let corners = |t: &[VertexId; 3]| t.map(|v| made.vertex_serials[v.index()]);
-    Copy {
-        vertices: made.vertex_serials.iter().copied().zip(made.mesh.vertices.iter().copied()).collect(),
-        triangles: made
-            .triangle_serials
-            .iter()
-            .copied()
-            .zip(made.mesh.triangles.iter().map(corners))
-            .collect(),
-    }
 }
 
 /// Triangles of the same points meshed at once, in the same domain.
@@ -51,17 +36,6 @@ fn check(session: &TemplateSession) {
     let corners = |t: &[VertexId; 3]| t.map(|v| made.mesh.vertices[v.index()]);
     let fits = |t: &[VertexId; 3]| session.size().is_none_or(|size| triangle_fits(size, corners(t)));
     assert!(made.mesh.triangles.iter().all(fits), "an edge is too long");
-}
-
-/// Asserts that a call is refused and has changed nothing.
-fn refused(
-    session: &mut TemplateSession,
-    call: impl FnOnce(&mut TemplateSession) -> Result<Outcome, SessionError>,
-) -> SessionError {
-    let before = session.to_ron().unwrap();
-    let error = call(session).expect_err("the call is refused");
-    assert_eq!(session.to_ron().unwrap(), before, "after {error}");
-    error
 }
 
 /// One call of a random sequence.
@@ -117,7 +91,7 @@ proptest! {
     #[test]
     fn every_state_holds_and_every_delta_tells(calls in prop::collection::vec(call(), 1..40)) {
         let mut session = TemplateSession::empty(DVec2::ZERO, 1.0).unwrap();
-        let mut told = copy(&session);
+        let mut told = Copy::of(&session);
         for call in &calls {
             let before = session.to_ron().unwrap();
             if let Ok(outcome) = run(&mut session, call) {
@@ -126,7 +100,7 @@ proptest! {
                 prop_assert_eq!(session.to_ron().unwrap(), before, "after {:?}", call);
             }
             check(&session);
-            let is = copy(&session);
+            let is = Copy::of(&session);
             let first = told.triangles.iter().zip(&is.triangles).find(|(a, b)| a != b);
             prop_assert!(told.triangles == is.triangles, "triangles after {:?}: {:?}", call, first);
             let first = told.vertices.iter().zip(&is.vertices).find(|(a, b)| a != b);
@@ -224,6 +198,31 @@ fn a_lattice_of_which_half_goes_is_as_good_as_at_once() {
         session.renew().unwrap();
         let once = session.counts()[2];
         assert!(left as f64 <= 1.1 * once as f64, "{left} triangles, {once} at once");
+    }
+}
+
+#[test]
+fn the_lattice_follows_the_points() {
+    use generate::Kind::{Circle, Grid, Jittered, Spiral};
+    for kind in [Grid, Jittered, Circle, Spiral] {
+        let all = generate::generate(kind, 150, 2);
+        let mut session = TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap();
+        let near_at_once = |session: &TemplateSession| {
+            check(session);
+            let points: Vec<DVec2> = session.points().map(|p| p.1).collect();
+            let mut once = TemplateSession::empty(DVec2::splat(0.5), 1.0).unwrap();
+            once.insert_all(&points).unwrap();
+            let [now, once] = [session, &once].map(|s| s.counts()[2] as f64);
+            assert!((now / once - 1.0).abs() < 0.1, "{kind:?}: {now} triangles, {once} at once");
+        };
+        for &p in &all {
+            session.insert(p).unwrap();
+        }
+        near_at_once(&session);
+        for i in (0..150).step_by(2) {
+            session.remove(&[PointId(i)]).unwrap();
+        }
+        near_at_once(&session);
     }
 }
 

@@ -1,16 +1,14 @@
 //! `hexdel session`: commands from a pipe, each answered with a line of JSON.
 
 mod command;
-mod kept;
 
 use crate::exit::{Failure, Outcome, Verdict, print};
 use crate::outputs::{Content, Outputs};
 use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
 use hexdel::optimize::live::Delta;
-use hexdel::{PointId, Size};
+use hexdel::{AnySession, Mesher, Method, PointId, Size};
 use hexdel_io::{MarkedEdge, MeshView, write_mesh};
-use kept::Kept;
 use serde_json::{Value, json};
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
@@ -65,7 +63,10 @@ pub(crate) fn run(args: &Args) -> Outcome {
     let mut talk = Talk {
         session: None,
         brief: args.brief,
-        templates: args.method == SessionMethod::Templates,
+        method: match args.method {
+            SessionMethod::Compact => Method::Compact,
+            SessionMethod::Templates => Method::Templates,
+        },
         inputs: Vec::new(),
     };
     let mut input = io::stdin().lock();
@@ -104,9 +105,9 @@ fn tell(answer: Result<Value, String>) -> Result<(), Failure> {
 type Refusal = Box<dyn std::error::Error>;
 
 struct Talk {
-    session: Option<Kept>,
+    session: Option<AnySession>,
     brief: bool,
-    templates: bool,
+    method: Method,
     /// Points that were read, which no mesh may replace.
     inputs: Vec<PathBuf>,
 }
@@ -117,19 +118,19 @@ impl Talk {
             Command::Open(path) => {
                 let graph = hexdel_io::read_points(&path)?;
                 self.inputs.push(path);
-                self.begin(Kept::open(&graph, self.templates)?)
+                self.begin(AnySession::new(&graph, &Mesher::new().method(self.method))?)
             }
-            Command::Domain(centre, radius) => self.begin(Kept::empty(centre, radius, self.templates)?),
+            Command::Domain(centre, radius) => self.begin(AnySession::empty(centre, radius, self.method)?),
             Command::Load(path) => {
                 let text = std::fs::read_to_string(&path)
                     .map_err(|source| Failure::Output { file: path.clone(), source })?;
-                self.begin(Kept::load(&text)?)
+                self.begin(AnySession::from_ron(&text)?)
             }
             other => self.answer_in_session(other),
         }
     }
 
-    fn begin(&mut self, session: Kept) -> Result<Value, Refusal> {
+    fn begin(&mut self, session: AnySession) -> Result<Value, Refusal> {
         self.session = Some(session);
         self.answer_in_session(Command::Counts)
     }
@@ -172,7 +173,7 @@ impl Talk {
     }
 }
 
-fn counts(session: &Kept) -> Value {
+fn counts(session: &AnySession) -> Value {
     let [points, vertices, triangles] = session.counts();
     let (centre, radius) = session.domain();
     json!({
@@ -181,7 +182,7 @@ fn counts(session: &Kept) -> Value {
     })
 }
 
-fn points(session: &Kept) -> Value {
+fn points(session: &AnySession) -> Value {
     let all: Vec<Value> = session.points().into_iter().map(|(id, at)| json!([id.0, at.x, at.y])).collect();
     json!({ "ok": true, "points": all })
 }
@@ -210,7 +211,7 @@ fn changed(size: Option<Size>, command: SizeCommand) -> Result<Option<Size>, Ref
     }))
 }
 
-fn write(session: &Kept, path: &Path, inputs: &[PathBuf]) -> Result<Value, Refusal> {
+fn write(session: &AnySession, path: &Path, inputs: &[PathBuf]) -> Result<Value, Refusal> {
     let mut outputs = Outputs::default();
     for input in inputs {
         outputs.protect_input(input);
@@ -236,7 +237,7 @@ fn write(session: &Kept, path: &Path, inputs: &[PathBuf]) -> Result<Value, Refus
     Ok(written(path))
 }
 
-fn save(session: &Kept, path: &Path) -> Result<Value, Refusal> {
+fn save(session: &AnySession, path: &Path) -> Result<Value, Refusal> {
     let text = session.to_ron()?;
     let mut outputs = Outputs::default();
     outputs.add_text(path)?;

@@ -86,6 +86,17 @@ impl Memory {
     pub(crate) fn locate(&mut self, store: &Store, p: DVec2) -> Option<Spot> {
         let found = self.find(store, p)?;
         self.remember(p, found);
+        Self::spot(store, found, p)
+    }
+
+    /// The segment that `p` lies on, if any.
+    pub(crate) fn line_at(&self, store: &Store, p: DVec2) -> Option<u32> {
+        let spot = Self::spot(store, self.find(store, p)?, p)?;
+        store.line_of_side(spot.triangle, spot.side?)
+    }
+
+    /// Where `p` lies that triangle `found` holds.
+    fn spot(store: &Store, found: u32, p: DVec2) -> Option<Spot> {
         let mut nearby: Vec<u32> = Vec::new();
         for v in store.triangle(found).v {
             store.around(v, |t| nearby.push(t));

@@ -371,6 +371,16 @@ impl LiveMesh {
         bound && self.store.line_of_vertex(slot).is_none()
     }
 
+    /// The segment that the vertex in a slot lies on between the ends, if any.
+    pub fn line_of(&self, slot: u32) -> Option<usize> {
+        self.store.line_of_vertex(slot).map(|line| line as usize)
+    }
+
+    /// The segment that `p` lies on up to rounding, if any.
+    pub fn line_at(&self, p: DVec2) -> Option<usize> {
+        self.memory.line_at(&self.store, p).map(|line| line as usize)
+    }
+
     /// Whether there is a fixed vertex in a slot.
     pub fn is_fixed(&self, slot: u32) -> bool {
         let vertex = self.store.vertices.get(slot as usize);

@@ -49,6 +49,9 @@ pub enum SessionError {
         /// The option.
         option: &'static str,
     },
+    /// Segments were given to a session of templates.
+    #[error("sessions of templates know no segments")]
+    NoSegments,
     /// There is the same point already.
     #[error("({:?}, {:?}) is point {} already", at.x, at.y, of.0)]
     Duplicate {

@@ -1,5 +1,6 @@
 //! Sessions of graphs: what of the graph stays, and the mesh seen with it.
 
+use super::divide::{Divided, Divider};
 use super::{PointId, Session, SessionError, SessionMesh};
 use crate::error::Error;
 use crate::graph::Domain;
@@ -8,7 +9,7 @@ use crate::mesher::{Mesher, Method};
 use hexdel_geom::{Certificate, Circle, smallest_enclosing_circle};
 use hexdel_geom::{CertifyOptions, DVec2, Pslg, SegmentCheck, VertexId, certify, check_segments};
 use hexdel_optimize::live::{LiveMesh, Snapshot};
-use hexdel_optimize::{Constraints, VertexKind, kinds_of};
+use hexdel_optimize::{Constraints, Sizing, VertexKind, kinds_of};
 use hexdel_pslg::{Reason, SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -16,6 +17,9 @@ use std::sync::Arc;
 
 /// Sine of the turn up to which the sides of a domain go straight on.
 const STRAIGHT: f64 = 1e-3;
+
+/// How much the radii of a ring may differ, in parts of one: they are rounded.
+const ON_RING: f64 = 1e-9;
 
 /// What does not change in a session of a graph.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +34,9 @@ pub(super) struct Frame {
     /// How many of the lines, the last ones, are edges of fans.
     #[serde(default)]
     in_fans: usize,
+    /// Whether the domain is what segments enclose, which does not depend on points.
+    #[serde(default)]
+    inside: bool,
 }
 
 impl Frame {
@@ -96,7 +103,9 @@ struct Rows {
 }
 
 impl Rows {
-    fn of(made: &PslgTriangulation) -> Self {
+    /// The rows of a mesh whose segments are parts of others, by their numbers, divided at
+    /// points that are no ends of those.
+    fn of(made: &PslgTriangulation, divided: &Divided) -> Self {
         let at = |v: VertexId| made.mesh.vertices[v.index()];
         let mut rows = Self {
             lines: Vec::new(),
@@ -106,6 +115,10 @@ impl Rows {
             is_point: made.point_of_vertex.iter().map(Option::is_some).collect(),
             fans: 0,
         };
+        let whole = |segment: Option<u32>| segment.map(|s| divided.whole[s as usize]);
+        for v in divided.joints.iter().filter_map(|&p| made.vertex_of_point[p as usize]) {
+            rows.is_point[v.index()] = false;
+        }
         // The sides of a hexagon are no segments.
         let kept = |e: &&SegmentEdge| e.segment.is_some() || made.domain != Domain::Hexagon;
         let edges: Vec<&SegmentEdge> = made.edges.iter().filter(kept).collect();
@@ -117,7 +130,8 @@ impl Rows {
         let goes_on = |a: &SegmentEdge, b: &SegmentEdge| {
             let [u, w] = [a, b].map(|e| (at(e.ends[1]) - at(e.ends[0])).normalize_or_zero());
             let turns = is_point[b.ends[0].index()];
-            a.segment == b.segment && a.ends[1] == b.ends[0] && !turns && u.perp_dot(w).abs() <= STRAIGHT
+            let same = whole(a.segment) == whole(b.segment) && a.ends[1] == b.ends[0];
+            same && !turns && u.perp_dot(w).abs() <= STRAIGHT
         };
         for row in edges.chunk_by(|a, b| goes_on(a, b)) {
             let ends = [row[0].ends[0], row[row.len() - 1].ends[1]];
@@ -128,7 +142,7 @@ impl Rows {
                 rows.is_point[end.index()] = true;
             }
             rows.lines.push(ends.map(at));
-            rows.segment_of_line.push(row[0].segment);
+            rows.segment_of_line.push(whole(row[0].segment));
             rows.edges.extend(row.iter().map(|e| e.ends));
         }
         rows.fans = rows.lines.len();
@@ -185,12 +199,10 @@ impl Session {
     /// # Errors
     ///
     /// [`SessionError::Mesh`], [`SessionError::NotCertified`] for a graph whose mesh
-    /// does not keep its bounds, [`SessionError::NotForSessions`],
+    /// does not keep its bounds, [`SessionError::Size`], [`SessionError::NotForSessions`],
     /// [`SessionError::Duplicate`].
     pub fn with_segments(graph: &Pslg, mesher: &Mesher) -> Result<Self, SessionError> {
-        let mut mesher = mesher.clone().method(Method::Compact);
-        let (effort, size) = mesher.for_session();
-        mesher.size = None;
+        let mesher = mesher.clone().method(Method::Compact);
         let options = mesher.pslg_options(Domain::Inside);
         if options.max_area.is_some() || graph.regions.iter().any(|r| r.max_area.is_some()) {
             return Err(SessionError::NotForSessions { option: "a limit on areas" });
@@ -198,11 +210,39 @@ impl Session {
         if options.method == SegmentMethod::Paper {
             return Err(SessionError::NotForSessions { option: "the paper's way with segments" });
         }
-        let made = mesher.triangulate_pslg(graph)?;
-        if !made.holds() {
-            return Err(SessionError::NotCertified { certificate: Box::new(made.certificate) });
+        let begin = |mesher: &Mesher| -> Result<Self, SessionError> {
+            let made = mesher.triangulate_pslg(graph)?;
+            let (whole, divided) = (made.graph.clone(), Divided::none(&made.graph));
+            Self::of_graph(&made, whole, &divided, mesher)
+        };
+        let (_, size) = mesher.for_session();
+        match begin(&mesher) {
+            // What the size asks for has not come about at once: point by point it may.
+            Err(SessionError::NotCertified { .. }) if size.is_some() => {
+                let mut unsized_mesher = mesher.clone();
+                unsized_mesher.size = None;
+                let mut session = begin(&unsized_mesher)?;
+                session.set_size(size)?;
+                session.history.clear();
+                Ok(session)
+            }
+            begun => begun,
         }
-        let rows = Rows::of(&made);
+    }
+
+    /// The mesh that a mesher has made of a graph, `whole` but for points on its segments, as
+    /// a session.
+    fn of_graph(
+        made: &PslgTriangulation,
+        whole: Pslg,
+        divided: &Divided,
+        mesher: &Mesher,
+    ) -> Result<Self, SessionError> {
+        if !made.holds() {
+            return Err(SessionError::NotCertified { certificate: Box::new(made.certificate.clone()) });
+        }
+        let options = mesher.pslg_options(Domain::Inside);
+        let rows = Rows::of(made, divided);
         let constraints = Constraints {
             segments: rows.lines.clone(),
             edges: rows.edges.clone(),
@@ -212,35 +252,69 @@ impl Session {
             ..Constraints::default()
         };
         let mesh = made.mesh.clone();
-        let live = LiveMesh::with_segments(mesh, &rows.kinds(&made), options.far, &constraints);
-        let live = live.map_err(Error::Optimize)?;
-        let (points, of_slot) = slots_of(&made)?;
+        let live = LiveMesh::with_segments(mesh, &rows.kinds(made), options.far, &constraints);
+        let mut live = live.map_err(Error::Optimize)?;
+        for &joint in &divided.joints {
+            let at = made.graph.points[joint as usize];
+            live.insert(at).map_err(|_| SessionError::NoRoom { at })?;
+        }
+        live.take_step();
+        let (effort, size) = mesher.for_session();
+        live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
+        let (points, of_slot) = slots_of(made, &divided.ids)?;
         let circle = smallest_enclosing_circle(&made.mesh.vertices);
         let circle = circle.unwrap_or(Circle { center: DVec2::ZERO, radius: 0.0 });
         let in_fans = rows.lines.len() - rows.fans;
+        let inside = made.domain == Domain::Inside;
         let (lines, segment_of_line) = (rows.lines, rows.segment_of_line);
-        let frame = Frame { graph: made.graph, lines, segment_of_line, in_fans };
-        let mut session = Self {
+        let frame = Frame { graph: whole, lines, segment_of_line, in_fans, inside };
+        let session = Self {
             live,
             bounds: options.far,
             effort,
             centre: circle.center,
             radius: circle.radius,
-            size: None,
+            size,
             points,
             of_slot,
             frame: Some(Arc::new(frame)),
+            changed: 0,
             history: VecDeque::new(),
         };
         let check = session.check();
         if !check.holds() {
             return Err(SessionError::NotCertified { certificate: Box::new(check.certificate) });
         }
-        if size.is_some() {
-            session.set_size(size)?;
-            session.history.clear();
-        }
         Ok(session)
+    }
+
+    /// A mesh of the graph with the points that are there and more, the last ones of all.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] where that is not made, does not hold, or has no place for them.
+    pub(super) fn anew_with_segments(&self, frame: &Frame, new: &[DVec2]) -> Result<Self, SessionError> {
+        let first = self.points.len() as u64;
+        let mut divider = Divider::of(&frame.graph, |i| self.points[i].is_some());
+        let olds = self.points().filter(|p| p.0.0 as usize >= frame.graph.points.len());
+        let line_of = |id: PointId| self.live.line_of(self.points[id.0 as usize]?);
+        let olds = olds.map(|(id, at)| (id, at, line_of(id)));
+        let news = new.iter().zip(first..).map(|(&at, id)| (PointId(id), at, self.live.line_at(at)));
+        for (id, at, line) in olds.chain(news) {
+            divider.add(id, at, line.and_then(|line| frame.segment_of_line[line]));
+        }
+        let (graph, divided) = divider.divided();
+        let [near, far] = self.live.bounds();
+        let mesher = Mesher::new().method(Method::Compact).effort(self.effort);
+        let mesher = mesher.bounds(far).near_bounds(near).domain(Domain::Inside);
+        let mesher = self.size.iter().fold(mesher, |m, size| m.size(size.clone()));
+        let made = mesher.triangulate_pslg(&graph)?;
+        let anew = Self::of_graph(&made, frame.graph.clone(), &divided, &mesher)?;
+        let there = |id: u64| anew.points.get(id as usize).copied().flatten().is_some();
+        match new.iter().zip(first..).find(|p| !there(p.1)) {
+            Some((&at, _)) => Err(SessionError::NotCovered { at }),
+            None => Ok(anew),
+        }
     }
 
     /// What the mesh keeps, found out from scratch.
@@ -304,37 +378,78 @@ impl Session {
     }
 }
 
-/// The edges of triangles that fill a narrow corner together, but for those on
-/// segments, each once: in a session they stay as segments do.
+/// The edges of fans around points with narrow corners, but for those on segments, each
+/// once: in a session they stay as segments do, and what is near them is near the graph.
 fn fan_edges(made: &PslgTriangulation, edges: &[&SegmentEdge]) -> Vec<[VertexId; 2]> {
     let sorted = |[a, b]: [VertexId; 2]| [a.min(b), a.max(b)];
     let on_segments: BTreeSet<[VertexId; 2]> = edges.iter().map(|e| sorted(e.ends)).collect();
     let mut found = BTreeSet::new();
-    for exception in &made.exempt {
-        let Reason::Sector { point, .. } = exception.reason else { continue };
-        let corners = made.mesh.triangles[exception.triangle.index()];
-        let Some(k) = corners.iter().position(|&v| made.vertex_of_point[point as usize] == Some(v)) else {
-            continue;
-        };
-        let [apex, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
-        // Between two segments it is alone.
-        if [[apex, b], [apex, c]].iter().all(|&side| on_segments.contains(&sorted(side))) {
+    for (apex, corners) in corners_of_fans(made) {
+        // Where all are alone between two segments there is no fan but if all are as long.
+        let alone =
+            |[b, c]: &[VertexId; 2]| [*b, *c].iter().all(|&v| on_segments.contains(&sorted([apex, v])));
+        if corners.exempt.iter().all(alone) && !is_ring(made, apex, &corners.all) {
             continue;
         }
-        let sides = [[apex, b], [b, c], [c, apex]].map(sorted);
-        found.extend(sides.into_iter().filter(|side| !on_segments.contains(side)));
+        for [b, c] in corners.all {
+            let sides = [[apex, b], [b, c], [c, apex]].map(sorted);
+            found.extend(sides.into_iter().filter(|side| !on_segments.contains(side)));
+        }
     }
     found.into_iter().collect()
 }
 
-/// The slot of each point of a graph, and the point in each slot.
+/// The other corners of the triangles at a vertex.
+#[derive(Default)]
+struct Corners {
+    all: Vec<[VertexId; 2]>,
+    /// Of triangles that are exempt because of the angle there.
+    exempt: Vec<[VertexId; 2]>,
+}
+
+/// The triangles around each point that has an exempt corner.
+fn corners_of_fans(made: &PslgTriangulation) -> BTreeMap<VertexId, Corners> {
+    let mut found: BTreeMap<VertexId, Corners> = BTreeMap::new();
+    let others = |t: [VertexId; 3], apex: VertexId| {
+        let k = t.iter().position(|&v| v == apex)?;
+        Some([t[(k + 1) % 3], t[(k + 2) % 3]])
+    };
+    for exception in &made.exempt {
+        let Reason::Sector { point, .. } = exception.reason else { continue };
+        let Some(apex) = made.vertex_of_point[point as usize] else { continue };
+        let sides = others(made.mesh.triangles[exception.triangle.index()], apex);
+        found.entry(apex).or_default().exempt.extend(sides);
+    }
+    for &t in &made.mesh.triangles {
+        for v in t {
+            if let Some(corners) = found.get_mut(&v) {
+                corners.all.extend(others(t, v));
+            }
+        }
+    }
+    found
+}
+
+/// Whether the neighbours of a vertex are on a circle around it.
+fn is_ring(made: &PslgTriangulation, apex: VertexId, sides: &[[VertexId; 2]]) -> bool {
+    let at = |v: VertexId| made.mesh.vertices[v.index()];
+    let distances = || sides.iter().flatten().map(|&v| at(v).distance(at(apex)));
+    let (least, most) = (distances().fold(f64::INFINITY, f64::min), distances().fold(0.0, f64::max));
+    most - least <= ON_RING * most
+}
+
+/// The slot of each point by its number, and the point in each slot.
 #[expect(clippy::type_complexity, reason = "the two fields of a session")]
-fn slots_of(made: &PslgTriangulation) -> Result<(Vec<Option<u32>>, BTreeMap<u32, PointId>), SessionError> {
-    let slots: Vec<Option<u32>> = made.vertex_of_point.iter().map(|v| v.map(|v| v.index() as u32)).collect();
+fn slots_of(
+    made: &PslgTriangulation,
+    ids: &[PointId],
+) -> Result<(Vec<Option<u32>>, BTreeMap<u32, PointId>), SessionError> {
+    let mut slots = vec![None; ids.iter().map(|id| id.0 as usize + 1).max().unwrap_or(0)];
     let mut of_slot = BTreeMap::new();
-    for (i, slot) in slots.iter().enumerate() {
-        let Some(slot) = *slot else { continue };
-        if let Some(of) = of_slot.insert(slot, PointId(i as u64)) {
+    for (i, (vertex, &id)) in made.vertex_of_point.iter().zip(ids).enumerate() {
+        let Some(slot) = vertex.map(|v| v.index() as u32) else { continue };
+        slots[id.0 as usize] = Some(slot);
+        if let Some(of) = of_slot.insert(slot, id) {
             return Err(SessionError::Duplicate { at: made.graph.points[i], of });
         }
     }

@@ -6,6 +6,8 @@
 //! their names, undo, and the mesh made anew where changes nearby do not
 //! suffice. `docs/sessions.md` explains the whole.
 
+mod any;
+mod divide;
 mod error;
 mod graph;
 mod outcome;
@@ -22,6 +24,7 @@ use hexdel_optimize::{Effort, Sizing, kinds_of};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
+pub use any::AnySession;
 pub use error::SessionError;
 use graph::Frame;
 pub use graph::SessionCheck;
@@ -73,6 +76,8 @@ pub struct Session {
     of_slot: BTreeMap<u32, PointId>,
     /// What there is of a graph.
     frame: Option<Arc<Frame>>,
+    /// Points that have come or gone since the mesh was compared with one made at once.
+    changed: usize,
     /// What undoes the last calls, the last one at the end.
     history: VecDeque<Undo>,
 }
@@ -86,13 +91,14 @@ struct Undo {
     /// Size and radius before.
     size: Option<Size>,
     radius: f64,
+    changed: usize,
 }
 
 #[derive(Clone, Debug)]
 enum Before {
     Step(Step),
-    /// The whole mesh.
-    Whole(Box<LiveMesh>),
+    /// The whole mesh, and what of it lies on segments.
+    Whole(Box<LiveMesh>, Option<Arc<Frame>>),
 }
 
 impl Session {
@@ -126,6 +132,7 @@ impl Session {
             points: Vec::new(),
             of_slot: BTreeMap::new(),
             frame: None,
+            changed: 0,
             history: VecDeque::new(),
         })
     }
@@ -162,6 +169,7 @@ impl Session {
             of_slot: slots.iter().enumerate().map(|(i, &v)| (v, PointId(i as u64))).collect(),
             points: slots.into_iter().map(Some).collect(),
             frame: None,
+            changed: 0,
             history: VecDeque::new(),
         })
     }
@@ -186,7 +194,9 @@ impl Session {
     ///
     /// For each point in proportion to the triangles that it changes; where
     /// changes nearby do not suffice, or there are more new points than
-    /// points, the whole is meshed anew.
+    /// points, the whole is meshed anew. Without segments, the mesh of up to 1,024 points is
+    /// compared with one made at once now and then, and meshed anew if that is smaller: of up to
+    /// 32 points after every call, of up to 256 when an eighth has changed, then half.
     pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
         let before = self.points.len();
         let present = self.of_slot.len();
@@ -202,15 +212,19 @@ impl Session {
                 }
                 Err(Refused::NoRoom) => {
                     self.abandon(before);
-                    if self.frame.is_some() {
-                        return Err(SessionError::NoRoom { at: point });
+                    if let Some(frame) = self.frame.clone() {
+                        return self.insert_by_remeshing_graph(&frame, points, point);
                     }
                     return self.insert_by_remeshing(points);
                 }
             }
         }
-        let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
-        Ok(self.done(before, undo, self.size.clone()))
+        let changed = self.changed;
+        let outcome = self.improved(points.len(), |session| session.abandon(before)).unwrap_or_else(|| {
+            let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
+            self.done(before, undo, self.size.clone())
+        });
+        Ok(self.counting_from(changed, outcome))
     }
 
     fn insert_one(&mut self, at: DVec2) -> Result<(), Refused> {
@@ -271,7 +285,8 @@ impl Session {
     ///
     /// # Complexity
     ///
-    /// In proportion to the triangles that change.
+    /// In proportion to the triangles that change, but for comparison with a mesh made at
+    /// once as after [`insert_all`](Self::insert_all).
     pub fn remove(&mut self, ids: &[PointId]) -> Result<Outcome, SessionError> {
         let mut sorted: Vec<PointId> = ids.to_vec();
         sorted.sort_unstable();
@@ -296,8 +311,25 @@ impl Session {
             self.points[id.0 as usize] = None;
             self.of_slot.remove(&slot);
         }
-        let undo = slots.into_iter().map(|(id, slot)| (id, Some(slot))).collect();
-        Ok(self.done(self.points.len(), undo, self.size.clone()))
+        let changed = self.changed;
+        let abandon = |session: &mut Self| {
+            session.live.abandon();
+            for &(id, slot) in &slots {
+                session.points[id.0 as usize] = Some(slot);
+                session.of_slot.insert(slot, id);
+            }
+        };
+        let outcome = self.improved(ids.len(), abandon).unwrap_or_else(|| {
+            let undo = slots.iter().map(|&(id, slot)| (id, Some(slot))).collect();
+            self.done(self.points.len(), undo, self.size.clone())
+        });
+        Ok(self.counting_from(changed, outcome))
+    }
+
+    /// Lets undo of a call restore the count of changed points.
+    fn counting_from(&mut self, changed: usize, outcome: Outcome) -> Outcome {
+        self.history.back_mut().into_iter().for_each(|undo| undo.changed = changed);
+        outcome
     }
 
     /// Wants edges to be as short as a size says, or as long as the points
@@ -355,7 +387,26 @@ impl Session {
             return Err(SessionError::NotForSessions { option: "growing of a graph's domain" });
         }
         let (ids, points) = self.present();
-        self.remesh(ids, &points, 2.0 * self.radius, self.size.clone())
+        self.remesh(&ids, &points, 2.0 * self.radius, self.size.clone())
+    }
+
+    /// Meshes all points anew in the same domain, as if they had come at once.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] if that fails, or the domain is that of a graph and not what its
+    /// segments enclose.
+    ///
+    /// # Complexity
+    ///
+    /// That of a mesh made at once.
+    pub fn renew(&mut self) -> Result<Outcome, SessionError> {
+        if let Some(frame) = self.frame.clone() {
+            let anew = self.anew_with_segments(&frame, &[])?;
+            return Ok(self.replace_graph(anew));
+        }
+        let (ids, points) = self.present();
+        self.remesh(&ids, &points, self.radius, self.size.clone())
     }
 
     /// Takes the last call back that changed something and is not taken back
@@ -372,7 +423,10 @@ impl Session {
         let undo = self.history.pop_back().ok_or(SessionError::NothingToUndo)?;
         let (delta, remeshed) = match undo.mesh {
             Before::Step(step) => (self.live.undo(&step), false),
-            Before::Whole(old) => (self.live.replace_by(*old).1, true),
+            Before::Whole(old, frame) => {
+                self.frame = frame;
+                (self.live.replace_by(*old).1, true)
+            }
         };
         // All slots are freed before any is taken: some may change hands.
         for &(id, _) in &undo.points {
@@ -386,7 +440,7 @@ impl Session {
                 self.of_slot.insert(slot, id);
             }
         }
-        (self.size, self.radius) = (undo.size, undo.radius);
+        (self.size, self.radius, self.changed) = (undo.size, undo.radius, undo.changed);
         self.live.assume_sizing(self.size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
         Ok(Outcome { points: Vec::new(), delta, remeshed })
     }
@@ -395,7 +449,8 @@ impl Session {
     /// slots of `points` and the size.
     fn done(&mut self, before: usize, points: Vec<(PointId, Option<u32>)>, size: Option<Size>) -> Outcome {
         let (step, delta) = self.live.take_step();
-        self.push(Undo { mesh: Before::Step(step), points, size, radius: self.radius });
+        let (radius, changed) = (self.radius, self.changed);
+        self.push(Undo { mesh: Before::Step(step), points, size, radius, changed });
         let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
         Outcome { points, delta, remeshed: false }
     }

@@ -1,6 +1,6 @@
 //! All points meshed anew, where changes nearby do not suffice.
 
-use super::{Before, Outcome, PointId, Session, SessionError, Undo};
+use super::{Before, Frame, Outcome, PointId, Session, SessionError, Undo};
 use crate::mesher::{Mesher, Method};
 use crate::size::Size;
 use crate::triangulation::Triangulation;
@@ -8,6 +8,13 @@ use hexdel_geom::DVec2;
 use hexdel_optimize::live::LiveMesh;
 use hexdel_optimize::{Sizing, VertexKind, kinds_of};
 use std::sync::Arc;
+
+/// Up to so many points, when one of so many has changed, the mesh is compared with one made
+/// at once, which takes about a millisecond for each point.
+const COMPARED: [(usize, usize); 3] = [(32, 32), (256, 8), (1024, 2)];
+
+/// The one made at once is taken if there are so many times its triangles.
+const MORE: f64 = 1.05;
 
 impl Session {
     /// Meshes all points anew, with more.
@@ -20,8 +27,32 @@ impl Session {
         }
         all.extend_from_slice(points);
         let first = self.points.len() as u64;
-        let ids = ids.into_iter().chain((first..).map(PointId).take(points.len())).collect();
-        self.remesh(ids, &all, self.radius, self.size.clone())
+        let ids: Vec<PointId> = ids.into_iter().chain((first..).map(PointId).take(points.len())).collect();
+        self.remesh(&ids, &all, self.radius, self.size.clone())
+    }
+
+    /// Meshes the graph anew, with more points, one of which found no room.
+    pub(super) fn insert_by_remeshing_graph(
+        &mut self,
+        frame: &Frame,
+        points: &[DVec2],
+        at: DVec2,
+    ) -> Result<Outcome, SessionError> {
+        if let Some(&at) = points.iter().find(|p| !p.is_finite()) {
+            return Err(SessionError::NotFinite { at });
+        }
+        let anew = self.anew_with_segments(frame, points).map_err(|error| match error {
+            // What has not come about, or is not taken for valid.
+            SessionError::Mesh(_) | SessionError::NotCertified { .. } => SessionError::NoRoom { at },
+            error => error,
+        })?;
+        Ok(self.replace_graph(anew))
+    }
+
+    /// Puts another mesh of the graph in the place of this one.
+    pub(super) fn replace_graph(&mut self, anew: Self) -> Outcome {
+        let slots = anew.of_slot.into_iter().map(|(slot, id)| (id, slot)).collect();
+        self.replace((anew.live, anew.frame), slots, self.radius, self.size.clone())
     }
 
     /// Points and their places.
@@ -32,21 +63,32 @@ impl Session {
     /// Meshes points anew: those that are there and new ones.
     pub(super) fn remesh(
         &mut self,
-        ids: Vec<PointId>,
+        ids: &[PointId],
         points: &[DVec2],
         radius: f64,
         size: Option<Size>,
     ) -> Result<Outcome, SessionError> {
-        let before = self.points.len();
-        let mesher = Mesher::new().method(Method::Compact).effort(self.effort).bounds(self.bounds);
-        let mesher = mesher.around(self.centre, radius);
-        let mesher = size.iter().fold(mesher, |m, s| m.size(s.clone()));
         if points.is_empty() {
             let mut anew = Self::empty(self.centre, radius)?;
             anew.bounds = self.bounds;
             anew.set_size(size)?;
-            return Ok(self.replace(anew.live, Vec::new(), radius, anew.size));
+            return Ok(self.replace((anew.live, None), Vec::new(), radius, anew.size));
         }
+        let (live, slots) = self.made_at_once(ids, points, radius, size.as_ref())?;
+        Ok(self.replace((live, None), slots, radius, size))
+    }
+
+    /// The mesh of points made at once, and their slots.
+    fn made_at_once(
+        &self,
+        ids: &[PointId],
+        points: &[DVec2],
+        radius: f64,
+        size: Option<&Size>,
+    ) -> Result<(LiveMesh, Vec<(PointId, u32)>), SessionError> {
+        let mesher = Mesher::new().method(Method::Compact).effort(self.effort).bounds(self.bounds);
+        let mesher = mesher.around(self.centre, radius);
+        let mesher = size.iter().fold(mesher, |m, s| m.size((*s).clone()));
         let made = mesher.triangulate(points)?;
         let inputs = made.input_of_vertex();
         for (i, v) in made.vertex_of_input.iter().enumerate() {
@@ -55,23 +97,44 @@ impl Session {
             }
         }
         let kinds = kinds(&made);
-        let slots = ids.into_iter().zip(made.vertex_of_input.iter().map(|v| v.index() as u32)).collect();
+        let slots = made.vertex_of_input.iter().map(|v| v.index() as u32);
+        let slots = ids.iter().copied().zip(slots).collect();
         let mut live = LiveMesh::new(made.mesh, &kinds, self.bounds).map_err(crate::Error::Optimize)?;
-        live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
-        debug_assert_eq!(before, self.points.len());
-        Ok(self.replace(live, slots, radius, size))
+        live.assume_sizing(size.map(|s| Arc::new(s.clone()) as Arc<dyn Sizing>));
+        Ok((live, slots))
+    }
+
+    /// After a call that has changed the points and not ended: the same by a mesh made at
+    /// once, if so many have changed that this is in proportion and it has many triangles
+    /// fewer. `abandon` takes the call back.
+    pub(super) fn improved(&mut self, changed: usize, abandon: impl FnOnce(&mut Self)) -> Option<Outcome> {
+        self.changed += changed;
+        let points = self.of_slot.len();
+        let share = COMPARED.into_iter().find(|c| points <= c.0)?.1;
+        if self.frame.is_some() || points == 0 || self.changed * share < points {
+            return None;
+        }
+        self.changed = 0;
+        let (ids, points) = self.present();
+        let (live, slots) = self.made_at_once(&ids, &points, self.radius, self.size.as_ref()).ok()?;
+        if self.live.counts()[1] as f64 <= MORE * live.counts()[1] as f64 {
+            return None;
+        }
+        abandon(self);
+        Some(self.replace((live, None), slots, self.radius, self.size.clone()))
     }
 
     /// Puts another mesh of points in the place of this one.
     fn replace(
         &mut self,
-        live: LiveMesh,
+        (live, frame): (LiveMesh, Option<Arc<Frame>>),
         slots: Vec<(PointId, u32)>,
         radius: f64,
         size: Option<Size>,
     ) -> Outcome {
         let before = self.points.len();
         let (old, delta) = self.live.replace_by(live);
+        let frame = std::mem::replace(&mut self.frame, frame);
         let mut points: Vec<Option<u32>> = vec![None; before];
         for &(id, slot) in &slots {
             let i = id.0 as usize;
@@ -83,7 +146,14 @@ impl Session {
         self.points = points;
         self.of_slot = slots.into_iter().map(|(id, slot)| (slot, id)).collect();
         let olds = (std::mem::replace(&mut self.size, size), std::mem::replace(&mut self.radius, radius));
-        self.push(Undo { mesh: Before::Whole(Box::new(old)), points: undo, size: olds.0, radius: olds.1 });
+        let changed = std::mem::take(&mut self.changed);
+        self.push(Undo {
+            mesh: Before::Whole(Box::new(old), frame),
+            points: undo,
+            size: olds.0,
+            radius: olds.1,
+            changed,
+        });
         let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
         Outcome { points, delta, remeshed: true }
     }

@@ -26,6 +26,9 @@ struct Document {
     mesh: LiveState,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frame: Option<Frame>,
+    /// Points that have come or gone since the mesh was compared with one made at once.
+    #[serde(default)]
+    changed: usize,
 }
 
 impl Session {
@@ -52,6 +55,7 @@ impl Session {
             points: self.points.clone(),
             mesh: self.live.state(),
             frame: self.frame.as_deref().cloned(),
+            changed: self.changed,
         };
         ron::to_string(&document).map_err(|e| SessionError::Unreadable { message: e.to_string() })
     }
@@ -98,6 +102,7 @@ impl Session {
             points: document.points,
             of_slot,
             frame,
+            changed: document.changed,
             history: VecDeque::new(),
         };
         let check = session.check();

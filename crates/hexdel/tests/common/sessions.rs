@@ -1,8 +1,31 @@
 //! Sessions: a copy kept by deltas, and calls that are refused.
 
 use hexdel::optimize::live::Delta;
-use hexdel::{DVec2, Outcome, Session, SessionError, VertexId};
+use hexdel::{DVec2, Outcome, Session, SessionError, SessionMesh, TemplateSession, VertexId};
 use std::collections::BTreeMap;
+
+/// What tests ask of sessions of both kinds.
+pub(crate) trait Calls {
+    fn whole(&self) -> SessionMesh;
+    fn text(&self) -> String;
+}
+
+macro_rules! calls {
+    ($session:ty) => {
+        impl Calls for $session {
+            fn whole(&self) -> SessionMesh {
+                self.mesh()
+            }
+
+            fn text(&self) -> String {
+                self.to_ron().unwrap()
+            }
+        }
+    };
+}
+
+calls!(Session);
+calls!(TemplateSession);
 
 /// A copy of a mesh that is kept by deltas alone.
 #[derive(Debug, Default, PartialEq)]
@@ -12,8 +35,8 @@ pub(crate) struct Copy {
 }
 
 impl Copy {
-    pub(crate) fn of(session: &Session) -> Self {
-        let made = session.mesh();
+    pub(crate) fn of(session: &impl Calls) -> Self {
+        let made = session.whole();
         let serial = |t: &[VertexId; 3]| t.map(|v| made.vertex_serials[v.index()]);
         Self {
             vertices: made.vertex_serials.iter().copied().zip(made.mesh.vertices.clone()).collect(),
@@ -47,12 +70,12 @@ impl Copy {
 
 /// Asserts that a call is refused and has changed nothing.
 #[track_caller]
-pub(crate) fn refused(
-    session: &mut Session,
-    call: impl FnOnce(&mut Session) -> Result<Outcome, SessionError>,
+pub(crate) fn refused<S: Calls>(
+    session: &mut S,
+    call: impl FnOnce(&mut S) -> Result<Outcome, SessionError>,
 ) -> SessionError {
-    let before = session.to_ron().unwrap();
+    let before = session.text();
     let error = call(session).expect_err("the call is refused");
-    assert_eq!(session.to_ron().unwrap(), before, "after {error}");
+    assert_eq!(session.text(), before, "after {error}");
     error
 }

@@ -8,11 +8,13 @@
 //! |---|---|
 //! | `grown` | the grid and its mesh, kept in step |
 //! | `cells` | the mesh tile by tile, serial numbers, what has changed |
+//! | `laid` | where the lattice lies |
 //! | `patch` | what is new, made Delaunay and certified |
 //! | `saved` | sessions as text |
 
 mod cells;
 mod grown;
+mod laid;
 mod patch;
 mod saved;
 
@@ -26,15 +28,12 @@ use grown::{Grown, Step, Stuck, certified};
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, closest_pair};
 use hexdel_grid::{Address, Grid, Lattice};
 use hexdel_refine::RefineError;
+use laid::{Since, fitting};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Steps of level 0 to the corners of an empty domain.
 const STEPS: u32 = 3;
-
-/// One of so many points goes, and all are put in anew: over more than a few hexagons
-/// they may hold each other down.
-const LIFT_SHARE: usize = 16;
 
 /// A mesh of [`Method::Templates`] that changes.
 ///
@@ -65,8 +64,7 @@ pub struct TemplateSession {
     /// removed ones.
     points: Vec<Option<u32>>,
     present: usize,
-    /// Points that have gone since all were put in.
-    missed: usize,
+    since: Since,
     /// What undoes the last calls, the last one at the end.
     history: VecDeque<Undo>,
 }
@@ -77,8 +75,8 @@ struct Undo {
     mesh: Before,
     /// Points and their places in the refiner's order before.
     points: Vec<(PointId, Option<u32>)>,
-    /// Points that had gone since all were put in.
-    missed: usize,
+    /// What had come and gone then.
+    since: Since,
 }
 
 #[derive(Clone, Debug)]
@@ -101,7 +99,7 @@ impl TemplateSession {
         }
         let lattice = Lattice::new(centre, radius / f64::from(STEPS));
         let grown = Grown::new(lattice, STEPS, (&[], &[]), (Serials::default(), None))?;
-        Ok(Self { grown, points: Vec::new(), present: 0, missed: 0, history: VecDeque::new() })
+        Ok(Self { grown, points: Vec::new(), present: 0, since: Since::default(), history: VecDeque::new() })
     }
 
     /// The mesh that a mesher makes of points, as a session. Its method is
@@ -122,7 +120,13 @@ impl TemplateSession {
         let kept = (Serials::default(), size);
         let grown = mesher.on_threads(|| Ok(Grown::new(lattice, steps, (&ids, points), kept)))??;
         let orders = (0..points.len() as u32).map(Some).collect();
-        Ok(Self { grown, points: orders, present: points.len(), missed: 0, history: VecDeque::new() })
+        Ok(Self {
+            grown,
+            points: orders,
+            present: points.len(),
+            since: Since::default(),
+            history: VecDeque::new(),
+        })
     }
 
     /// Puts a point in.
@@ -153,32 +157,52 @@ impl TemplateSession {
         }
         check_distinct(points, before as u64)?;
         let ids: Vec<PointId> = (before as u64..).map(PointId).take(points.len()).collect();
+        let present = self.present + points.len();
+        let mut since = self.since.and_come(points.len(), present);
+        if since.is_look_due(present) {
+            since.seen = 0;
+            let (all_ids, all) = self.points_with(&ids, points);
+            if let Some(lattice) = self.better_lattice(&all) {
+                let anew = self.mesh_anew(
+                    lattice,
+                    self.grown.size.clone(),
+                    (all_ids, all),
+                    (ids.clone(), since.and_laid(present)),
+                );
+                // Where it has no room along the rim, what is there may have.
+                if anew.is_ok() {
+                    return anew;
+                }
+            }
+        }
         let first = self.grown.refiner.site_ids().len() as u32;
         match self.grown.exchange((&[], false), (&ids, points)) {
             Ok(step) => {
                 self.points.extend((first..).map(Some).take(points.len()));
                 self.present += points.len();
                 let undo = ids.iter().map(|&id| (id, None)).collect();
-                Ok(self.done(step, undo, ids))
+                Ok(self.done(step, undo, ids, since))
             }
             Err(Stuck::Levels(RefineError::TooFine { .. })) => Err(grown::too_many().into()),
-            Err(Stuck::Levels(error)) => {
-                let (_, mut all) = self.all_points();
-                all.extend_from_slice(points);
-                Err(grown::too_close(&error, &all))
-            }
+            Err(Stuck::Levels(error)) => Err(grown::too_close(&error, &self.points_with(&ids, points).1)),
             Err(Stuck::Rim | Stuck::Unsettled) => {
-                let (mut all_ids, mut all) = self.all_points();
-                all_ids.extend_from_slice(&ids);
-                all.extend_from_slice(points);
+                let all = self.points_with(&ids, points);
                 self.mesh_anew(
                     (self.grown.lattice(), self.grown.steps()),
                     self.grown.size.clone(),
-                    (all_ids, all),
-                    ids,
+                    all,
+                    (ids, since),
                 )
             }
         }
+    }
+
+    /// The points that are there, and others.
+    fn points_with(&self, ids: &[PointId], points: &[DVec2]) -> (Vec<PointId>, Vec<DVec2>) {
+        let (mut all_ids, mut all) = self.all_points();
+        all_ids.extend_from_slice(ids);
+        all.extend_from_slice(points);
+        (all_ids, all)
     }
 
     /// Refuses a point that is outside, or that coordinates or levels do not tell
@@ -225,28 +249,34 @@ impl TemplateSession {
         }
         let undo: Vec<_> = sorted.iter().map(|&id| (id, self.order(id))).collect();
         let gone: Vec<usize> = undo.iter().filter_map(|u| u.1).map(|order| order as usize).collect();
-        let missed = self.missed + gone.len();
-        let all = missed * LIFT_SHARE >= self.present;
-        // Edges along the rim may be longer now: that takes another lattice.
-        let lattice = if all { self.coarsest() } else { (self.grown.lattice(), self.grown.steps()) };
-        if lattice.1 == self.grown.steps()
+        let mut since = self.since.and_gone(gone.len(), self.present);
+        let all = since.is_lift_due(self.present);
+        let mut lattice = (self.grown.lattice(), self.grown.steps());
+        if all {
+            since = since.and_lifted();
+            // Edges along the rim may be longer now, too.
+            lattice = self.best_lattice(&self.points_without(&sorted).1);
+        } else if since.is_look_due(self.present - gone.len()) {
+            since.seen = 0;
+            if let Some(better) = self.better_lattice(&self.points_without(&sorted).1) {
+                (lattice, since) = (better, since.and_laid(self.present));
+            }
+        }
+        if lattice == (self.grown.lattice(), self.grown.steps())
             && let Ok(step) = self.grown.exchange((&gone, all), (&[], &[]))
         {
             for id in sorted {
                 self.points[id.0 as usize] = None;
             }
             self.present -= gone.len();
-            let before = std::mem::replace(&mut self.missed, if all { 0 } else { missed });
-            let outcome = self.done(step, undo, Vec::new());
-            self.history.back_mut().into_iter().for_each(|undo| undo.missed = before);
-            return Ok(outcome);
+            return Ok(self.done(step, undo, Vec::new(), since));
         }
-        let (mut left, mut all) = (Vec::new(), Vec::new());
-        for (id, at) in self.points().filter(|(id, _)| sorted.binary_search(id).is_err()) {
-            left.push(id);
-            all.push(at);
-        }
-        self.mesh_anew(lattice, self.grown.size.clone(), (left, all), Vec::new())
+        self.mesh_anew(lattice, self.grown.size.clone(), self.points_without(&sorted), (Vec::new(), since))
+    }
+
+    /// The points that are there but for some, ascending.
+    fn points_without(&self, gone: &[PointId]) -> (Vec<PointId>, Vec<DVec2>) {
+        self.points().filter(|(id, _)| gone.binary_search(id).is_err()).unzip()
     }
 
     fn order(&self, id: PointId) -> Option<u32> {
@@ -277,14 +307,19 @@ impl TemplateSession {
         }
         let size = size.map(Arc::new);
         if self.grown.frees_rim(size.as_deref()) {
-            return self.mesh_anew(self.coarsest(), size, self.all_points(), Vec::new());
+            return self.mesh_anew(
+                self.coarsest(),
+                size,
+                self.all_points(),
+                (Vec::new(), self.since.and_lifted()),
+            );
         }
         match self.grown.set_size(size.clone()) {
-            Ok(step) => Ok(self.done(step, Vec::new(), Vec::new())),
+            Ok(step) => Ok(self.done(step, Vec::new(), Vec::new(), self.since)),
             Err(Stuck::Levels(_)) => Err(grown::too_many().into()),
             Err(Stuck::Rim | Stuck::Unsettled) => {
                 let anew = (self.grown.lattice(), self.grown.steps());
-                self.mesh_anew(anew, size, self.all_points(), Vec::new())
+                self.mesh_anew(anew, size, self.all_points(), (Vec::new(), self.since.and_lifted()))
             }
         }
     }
@@ -314,12 +349,13 @@ impl TemplateSession {
         if reach >= MAX_COORDINATE {
             return Err(SessionError::InvalidDomain { centre, radius: 2.0 * radius });
         }
-        let lattice = Lattice::new(centre, 2.0 * self.grown.lattice().spacing(0));
-        self.mesh_anew((lattice, self.grown.steps()), self.grown.size.clone(), self.all_points(), Vec::new())
+        let all = self.all_points();
+        let lattice = fitting((centre, 2.0 * radius), &all.1);
+        self.mesh_anew(lattice, self.grown.size.clone(), all, (Vec::new(), self.since.and_lifted()))
     }
 
-    /// Meshes all points anew in the same domain, which takes away what points
-    /// that came and went have left.
+    /// Meshes all points anew in the same domain, on the lattice that suits them, which takes
+    /// away what points that came and went have left.
     ///
     /// # Errors
     ///
@@ -329,17 +365,13 @@ impl TemplateSession {
     ///
     /// That of a mesh made at once.
     pub fn renew(&mut self) -> Result<Outcome, SessionError> {
-        self.mesh_anew(self.coarsest(), self.grown.size.clone(), self.all_points(), Vec::new())
-    }
-
-    /// The lattice with the longest edges along the rim, and its steps.
-    fn coarsest(&self) -> (Lattice, u32) {
-        let (mut lattice, mut steps) = (self.grown.lattice(), self.grown.steps());
-        while steps.is_multiple_of(2) && steps > STEPS {
-            lattice = Lattice::new(lattice.origin(), 2.0 * lattice.spacing(0));
-            steps /= 2;
-        }
-        (lattice, steps)
+        let all = self.all_points();
+        self.mesh_anew(
+            self.best_lattice(&all.1),
+            self.grown.size.clone(),
+            all,
+            (Vec::new(), self.since.and_lifted()),
+        )
     }
 
     /// Takes the last call back that is not taken back yet; 256 are remembered,
@@ -370,7 +402,7 @@ impl TemplateSession {
             self.points[id.0 as usize] = order;
         }
         self.present = self.points.iter().flatten().count();
-        self.missed = undo.missed;
+        self.since = undo.since;
         Ok(Outcome { points: Vec::new(), delta, remeshed })
     }
 
@@ -380,7 +412,7 @@ impl TemplateSession {
         (lattice, steps): (Lattice, u32),
         size: Option<Arc<Size>>,
         (ids, points): (Vec<PointId>, Vec<DVec2>),
-        new: Vec<PointId>,
+        (new, since): (Vec<PointId>, Since),
     ) -> Result<Outcome, SessionError> {
         let grown = Grown::new(lattice, steps, (&ids, &points), (self.grown.cells.serials, size))?;
         let old = std::mem::replace(&mut self.grown, grown);
@@ -393,15 +425,22 @@ impl TemplateSession {
         let before = std::mem::replace(&mut self.points, orders);
         let points = (0..).map(PointId).zip(before).collect();
         self.present = ids.len();
-        let missed = std::mem::take(&mut self.missed);
-        self.remember(Undo { mesh: Before::Whole(Box::new(old)), points, missed });
+        let since = std::mem::replace(&mut self.since, since);
+        self.remember(Undo { mesh: Before::Whole(Box::new(old)), points, since });
         Ok(Outcome { points: new, delta, remeshed: true })
     }
 
     /// Ends a call.
-    fn done(&mut self, step: Step, undo: Vec<(PointId, Option<u32>)>, points: Vec<PointId>) -> Outcome {
+    fn done(
+        &mut self,
+        step: Step,
+        undo: Vec<(PointId, Option<u32>)>,
+        points: Vec<PointId>,
+        since: Since,
+    ) -> Outcome {
         let delta = self.grown.delta(&step);
-        self.remember(Undo { mesh: Before::Step(Box::new(step)), points: undo, missed: self.missed });
+        let since = std::mem::replace(&mut self.since, since);
+        self.remember(Undo { mesh: Before::Step(Box::new(step)), points: undo, since });
         Outcome { points, delta, remeshed: false }
     }
 

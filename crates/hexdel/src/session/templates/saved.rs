@@ -2,6 +2,7 @@
 
 use super::cells::Serials;
 use super::grown::{Grown, certified};
+use super::laid::Since;
 use super::{PointId, TemplateSession, check_size};
 use crate::placement::{FINEST, MAX_COORDINATE, finest_spacing};
 use crate::session::SessionError;
@@ -45,6 +46,12 @@ struct Document {
     /// Points that have gone since all were put in.
     #[serde(default)]
     missed: u32,
+    /// Points that have come or gone since the closest pair was asked for, and since the
+    /// lattice was laid.
+    #[serde(default)]
+    seen: u32,
+    #[serde(default)]
+    laid: u32,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     size: Option<Size>,
     /// The hexagons that are subdivided for the size, as in `tiles`.
@@ -103,7 +110,9 @@ impl TemplateSession {
             vertices: runs(pages.iter().flat_map(|p| of(p).serials.iter().copied())),
             triangles: runs(pages.iter().flat_map(|p| of(p).triangles.iter().map(|t| t.serial))),
             last: (cells.serials.vertex, cells.serials.triangle),
-            missed: self.missed as u32,
+            missed: self.since.gone as u32,
+            seen: self.since.seen as u32,
+            laid: self.since.laid as u32,
             size: self.size().cloned(),
             wanted,
         };
@@ -150,7 +159,7 @@ impl TemplateSession {
             grown,
             points: orders,
             present: points.len(),
-            missed: document.missed as usize,
+            since: document.since(),
             history: VecDeque::new(),
         })
     }
@@ -186,6 +195,10 @@ impl Document {
         }
         super::check_distinct(&self.points.iter().map(|p| p.1).collect::<Vec<_>>(), 0)?;
         Ok(orders)
+    }
+
+    fn since(&self) -> Since {
+        Since { gone: self.missed as usize, seen: self.seen as usize, laid: self.laid as usize }
     }
 
     /// Gives vertices and triangles their serial numbers, and moves what was
