@@ -40,6 +40,14 @@ use std::f64::consts::TAU;
 /// is an angle of 1/8 radian. Below, no mesh keeps 30 degrees but in a fan.
 pub(crate) const NARROW_DEG: f64 = 7.0;
 
+/// The same for a lower bound above 30 degrees, with which a triangle of 60 degrees has
+/// sides as 1 to less than 2.
+fn narrow_deg(near: AngleBounds) -> f64 {
+    let sin = |deg: f64| libm::sin(deg.to_radians());
+    let ratio = sin(near.min_deg()) / sin(120.0 - near.min_deg());
+    NARROW_DEG.max(NARROW_DEG * (2.0 * ratio).powi(3))
+}
+
 /// So many corners of a point that are less than `ROOM_DEG` above the lower
 /// bound get one, too: each is one triangle wide, and all must be as long.
 const MANY: usize = 3;
@@ -191,12 +199,13 @@ impl<'a> Spokes<'a> {
     /// The spokes of each site that has a narrow corner, or many that are
     /// somewhat narrow.
     fn corners(&self, near: AngleBounds) -> impl Iterator<Item = &[Spoke]> {
+        let narrow = narrow_deg(near);
         self.all.chunk_by(|a, b| a.site == b.site).filter(move |group| {
             let gaps = gaps(group);
             let least = gaps.iter().copied().fold(TAU, f64::min).to_degrees();
             let tight = gaps.iter().filter(|gap| gap.to_degrees() < near.min_deg() + ROOM_DEG).count();
             // Isosceles triangles have two angles near the largest.
-            least >= LEAST_DEG && (least < NARROW_DEG || tight >= MANY) && 90.0 - 0.5 * least < near.max_deg()
+            least >= LEAST_DEG && (least < narrow || tight >= MANY) && 90.0 - 0.5 * least < near.max_deg()
         })
     }
 

@@ -228,6 +228,20 @@ fn narrow_corners_spoil_triangles_at_their_point_only() {
 }
 
 #[test]
+fn higher_bounds_have_fans_at_wider_corners() {
+    let near = AngleBounds::new(43.8978, 90.0).expect("ordered");
+    // There is a corner of 10 degrees in the letter.
+    let letter = support::family("letter R", 0);
+    let wedge = |angle_deg| support::wedge(angle_deg, 3);
+    for pslg in [letter, wedge(8.0), wedge(12.0), wedge(19.0), wedge(22.0), wedge(30.0)] {
+        let made = made(&pslg, &Options::new().near(near));
+        assert!(made.holds(), "{:?}", made.failed);
+        assert_eq!(support::check(&pslg, &made), Ok(()));
+        assert_eq!(made.retries, 0);
+    }
+}
+
+#[test]
 fn needles_in_a_frame_spoil_triangles_at_their_point_only() {
     let inside = Options::new().extent(Extent::Inside);
     for name in support::NEEDLES {
