@@ -348,8 +348,8 @@ impl Monitor for UntilOptimised {
 
 #[test]
 fn what_is_no_better_does_not_cost_the_mesh() {
-    // Bounds that the tips do not let their surroundings keep.
-    let bounds = AngleBounds::new(43.0, 90.0).unwrap();
+    // Bounds that are too tight for what is beside the tips.
+    let bounds = AngleBounds::new(46.0, 90.0).unwrap();
     let valid = validate(&needle()).unwrap();
     let run = |retries, limit, monitor: &dyn Monitor| {
         let options = Options::new().extent(Extent::Inside).near(bounds).compact(None);
