@@ -40,8 +40,8 @@ use std::f64::consts::TAU;
 /// is an angle of 1/8 radian. Below, no mesh keeps 30 degrees but in a fan.
 pub(crate) const NARROW_DEG: f64 = 7.0;
 
-/// The same for a lower bound above 30 degrees, with which a triangle of 60 degrees has
-/// sides as 1 to less than 2.
+/// The same for lower bounds above 30 degrees too: the sides at a triangle's corner of 60
+/// degrees are then as 1 to less than 2.
 fn narrow_deg(near: AngleBounds) -> f64 {
     let sin = |deg: f64| libm::sin(deg.to_radians());
     let ratio = sin(near.min_deg()) / sin(120.0 - near.min_deg());

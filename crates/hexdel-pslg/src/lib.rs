@@ -11,8 +11,8 @@
 //! [`validate`] says whether a graph is planar, [`repair`] makes it so, [`mesh`]
 //! meshes it. Success of the optimiser is not proved: what does not keep its
 //! bounds is listed in [`PslgMesh::failed`]. Where segments meet at less than
-//! the lower bound, that one angle is exempt; below 7 degrees a fan of triangles
-//! around the point is, at the point.
+//! the lower bound, that one angle is exempt; below 7 degrees (with bounds above
+//! 30 degrees up to 20) a fan of triangles around the point is, at the point.
 //!
 //! | module | what |
 //! |---|---|
