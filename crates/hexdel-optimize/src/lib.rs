@@ -24,6 +24,7 @@
 //! | `flip` | Lawson flips in a patch |
 //! | [`live`] | a mesh that fixed vertices come to and go from |
 //! | `mesh` | the editable mesh with its journal |
+//! | `edit` | the editable mesh without one, to take the place of the others |
 //! | `angles` | bounds as polynomial tests |
 //!
 //! Every change is kept only where all angles it touches hold (in repair:
@@ -37,6 +38,8 @@ mod area;
 mod change;
 mod constraints;
 mod decimate;
+#[doc(hidden)]
+pub mod edit;
 mod error;
 mod flip;
 mod import;
