@@ -54,6 +54,16 @@ pub enum ValidateError {
         /// The point.
         point: DVec2,
     },
+    /// A ring of a polygon is not closed.
+    #[error("ring {ring} of polygon {polygon} ends at ({}, {}): rings must be closed", at.x, at.y)]
+    OpenRing {
+        /// Index of the polygon.
+        polygon: usize,
+        /// Index of the ring.
+        ring: usize,
+        /// Where it ends.
+        at: DVec2,
+    },
     /// The two ends of a segment are the same point.
     #[error("segment {segment} has no length: both ends are at ({}, {})", at.x, at.y)]
     ZeroLength {
@@ -117,6 +127,9 @@ pub enum PslgError {
     /// The inside was asked for, and nothing is enclosed by segments.
     #[error("no part of the plane is enclosed by segments and no hole")]
     NothingEnclosed,
+    /// The graph has polygons, of which meshes know nothing.
+    #[error("polygons must be made holes and regions first, by `Validated::seeded`")]
+    NotSeeded,
     /// Away from segments the method does not keep the bounds asked for.
     #[error(
         "angles between {} and {} degrees are more than the method keeps away from segments ({} to {})",

@@ -100,6 +100,9 @@ fn run(
     size: Option<&dyn Sizing>,
     monitor: &dyn Monitor,
 ) -> Result<PslgMesh, PslgError> {
+    if !input.pslg.polygons.is_empty() {
+        return Err(PslgError::NotSeeded);
+    }
     if let Some(area) = options.max_area.filter(|a| !(a.is_finite() && *a > 0.0)) {
         return Err(PslgError::InvalidArea { area });
     }

@@ -8,7 +8,7 @@
 use crate::error::ValidateError;
 use crate::pairs::{Contacts, contacts};
 use crate::validate::crossing;
-use hexdel_geom::{DVec2, PointSet, Pslg};
+use hexdel_geom::{DVec2, PointSet, Polygon, Pslg};
 use rustc_hash::FxHashMap;
 
 /// Rounds at most. Each brings what is left closer to the rounding of the
@@ -76,7 +76,8 @@ pub struct RepairReport {
 }
 
 /// Repairs what [`validate`](crate::validate) would find. Points that are not
-/// merged keep their coordinates; holes and regions are left as they are.
+/// merged keep their coordinates; holes and regions are left as they are, polygons
+/// have the parts of their segments.
 ///
 /// Attributes of points made where segments cross are zero, their markers are
 /// those of one of the segments; a part shared by segments has the marker of
@@ -117,7 +118,7 @@ pub fn repair(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), Valid
         points: pslg.points.clone(),
         into: (0..n as u32).collect(),
         markers: pslg.point_markers.clone(),
-        segments: pslg.segments.iter().zip(0..).map(|(&ends, i)| Part { ends, sources: vec![i] }).collect(),
+        segments: pslg.segments.iter().zip(0..).map(|(&ends, i)| Part::new(ends, i)).collect(),
         report: RepairReport::default(),
     };
     for _ in 0..ROUNDS {
@@ -148,6 +149,21 @@ struct Part {
     ends: [u32; 2],
     /// Segments as given, in order.
     sources: Vec<u32>,
+    /// Those of them that run along it an odd number of times: whoever crosses it
+    /// crosses these.
+    odd: Vec<u32>,
+}
+
+impl Part {
+    fn new(ends: [u32; 2], segment: u32) -> Self {
+        Self { ends, sources: vec![segment], odd: vec![segment] }
+    }
+}
+
+/// What is in a list an odd number of times, sorted.
+fn odd(mut list: Vec<u32>) -> Vec<u32> {
+    list.sort_unstable();
+    list.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect()
 }
 
 struct Mender<'a> {
@@ -227,6 +243,8 @@ impl Mender<'_> {
                     other.sources.extend(part.sources);
                     other.sources.sort_unstable();
                     other.sources.dedup();
+                    other.odd.extend(part.odd);
+                    other.odd = odd(std::mem::take(&mut other.odd));
                 }
             }
         }
@@ -286,7 +304,8 @@ impl Mender<'_> {
     /// Divides one segment at points on it.
     fn cut(&mut self, cuts: &[(u32, u32)]) {
         let segment = cuts[0].0 as usize;
-        let Part { ends: [a, b], sources } = self.segments[segment].clone();
+        let whole = self.segments[segment].clone();
+        let [a, b] = whole.ends;
         let from = self.points[a as usize];
         let direction = self.points[b as usize] - from;
         let mut stops: Vec<(f64, u32)> =
@@ -294,8 +313,25 @@ impl Mender<'_> {
         stops.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let chain: Vec<u32> = std::iter::once(a).chain(stops.into_iter().map(|s| s.1)).chain([b]).collect();
         self.segments[segment].ends = [chain[0], chain[1]];
-        let rest = chain[1..].windows(2).map(|w| Part { ends: [w[0], w[1]], sources: sources.clone() });
+        let rest = chain[1..].windows(2).map(|w| Part { ends: [w[0], w[1]], ..whole.clone() });
         self.segments.extend(rest);
+    }
+
+    /// The polygons, of what has become of their segments.
+    fn polygons(&self) -> Vec<Polygon> {
+        if self.pslg.polygons.is_empty() {
+            return Vec::new();
+        }
+        let parts = self.segments.iter().zip(0_u32..).flat_map(|(part, i)| part.odd.iter().map(move |&s| (s, i)));
+        let mut parts: Vec<(u32, u32)> = parts.collect();
+        parts.sort_unstable();
+        let of_segment = |s: &u32| {
+            let [first, end] = [*s, *s + 1].map(|s| parts.partition_point(|part| part.0 < s));
+            parts[first..end].iter().map(|part| part.1)
+        };
+        let ring = |ring: &Vec<u32>| odd(ring.iter().flat_map(of_segment).collect());
+        let polygon = |p: &Polygon| Polygon { rings: p.rings.iter().map(ring).collect(), ..*p };
+        self.pslg.polygons.iter().map(polygon).collect()
     }
 
     fn finish(self) -> (Pslg, RepairReport) {
@@ -303,6 +339,7 @@ impl Mender<'_> {
         let mut out = Pslg {
             holes: self.pslg.holes.clone(),
             regions: self.pslg.regions.clone(),
+            polygons: self.polygons(),
             attributes_per_point: self.pslg.attributes_per_point,
             ..Pslg::default()
         };
