@@ -72,5 +72,5 @@ pub use output::vertex_markers;
 pub use repair::{Repair, RepairReport, repair};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge, holds};
 pub use sectors::{NarrowCorner, hopeless_pairs, narrow_corners};
-pub use seeds::{Seed, Unused, UnusedSeed};
+pub use seeds::{Areas, Seed, Unused, UnusedSeed};
 pub use validate::{Divided, Validated, validate, violations};

@@ -322,7 +322,8 @@ impl Mender<'_> {
         if self.pslg.polygons.is_empty() {
             return Vec::new();
         }
-        let parts = self.segments.iter().zip(0_u32..).flat_map(|(part, i)| part.odd.iter().map(move |&s| (s, i)));
+        let parts =
+            self.segments.iter().zip(0_u32..).flat_map(|(part, i)| part.odd.iter().map(move |&s| (s, i)));
         let mut parts: Vec<(u32, u32)> = parts.collect();
         parts.sort_unstable();
         let of_segment = |s: &u32| {

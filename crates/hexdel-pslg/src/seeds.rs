@@ -111,6 +111,56 @@ impl Validated {
     }
 }
 
+/// How large the parts of the plane are that a mesh covers.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Areas {
+    /// The area of each region, square input units; 0 of one that is not used.
+    pub of_region: Vec<f64>,
+    /// The area in no region; unless the extent is the inside, up to a rectangle around
+    /// all points.
+    pub of_none: f64,
+}
+
+impl Validated {
+    /// The areas that a mesh of an extent has, but for a hexagon's: of what lies between
+    /// the segments, without holes, and without the outside if `extent` is
+    /// [`Extent::Inside`].
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the graph.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use hexdel_geom::{DVec2, Pslg, Region};
+    /// use hexdel_pslg::{Extent, validate};
+    ///
+    /// let mut triangle = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::Y]);
+    /// triangle.segments = vec![[0, 1], [1, 2], [2, 0]];
+    /// triangle.regions = vec![Region { point: DVec2::splat(0.2), attribute: 1.0, max_area: None }];
+    /// let areas = validate(&triangle)?.areas(Extent::Inside);
+    /// assert_eq!((areas.of_region, areas.of_none), (vec![0.5], 0.0));
+    /// # Ok::<(), hexdel_pslg::ValidateError>(())
+    /// ```
+    pub fn areas(&self, extent: Extent) -> Areas {
+        let plane = &self.plane;
+        let mut areas = Areas { of_region: vec![0.0; self.pslg.regions.len()], of_none: 0.0 };
+        let carved = reached(plane, &self.pslg.holes, extent == Extent::Inside);
+        let regions = Locator::of(self).regions(self);
+        for t in plane.alive().filter(|&t| !carved[t as usize]) {
+            let [a, b, c] = plane.corners(t);
+            let area = 0.5 * (b - a).perp_dot(c - a);
+            match regions[t as usize] {
+                Some(region) => areas.of_region[region as usize] += area,
+                None => areas.of_none += area,
+            }
+        }
+        areas
+    }
+}
+
 struct Search<'a> {
     input: &'a Validated,
     locator: Locator<'a>,
@@ -158,7 +208,8 @@ impl<'a> Search<'a> {
                 let mut star = Vec::new();
                 plane.star(v, &mut star);
                 let sides = star.iter().flat_map(|&t| (0..3).map(move |i| (t, i)));
-                let mut pieces = sides.filter(|&(t, i)| plane.tri(t).v[i] != v).map(|(t, i)| plane.tri(t).s[i]);
+                let mut pieces =
+                    sides.filter(|&(t, i)| plane.tri(t).v[i] != v).map(|(t, i)| plane.tri(t).s[i]);
                 pieces.find(|&piece| piece != NONE)?
             }
             _ => NONE,
@@ -171,7 +222,8 @@ impl<'a> Search<'a> {
             Extent::Hexagon => false,
             Extent::Inside => self.outside[t as usize],
             Extent::Hull => {
-                let sides = (0..self.hull.len()).map(|i| [self.hull[i], self.hull[(i + 1) % self.hull.len()]]);
+                let sides =
+                    (0..self.hull.len()).map(|i| [self.hull[i], self.hull[(i + 1) % self.hull.len()]]);
                 sides.into_iter().any(|[a, b]| orient2d(a, b, p) < 0.0)
             }
         }

@@ -4,7 +4,7 @@ use super::finding;
 use hexdel::geom::certificate::Violation;
 use hexdel::geom::segments::{covered, is_on};
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, MissingSegment, SegmentCheck, check_segments, quality};
-use hexdel::{Certificate, DVec2, Pslg, TriMesh, pslg};
+use hexdel::{Certificate, DVec2, Mesher, Pslg, TriMesh, pslg};
 use serde::Serialize;
 use std::cmp::Ordering;
 
@@ -21,6 +21,12 @@ impl OfGraph {
     /// Holds a mesh against a graph. Exempt triangles, and points in holes or
     /// outside, are taken out of the certificate.
     pub(super) fn new(mesh: &TriMesh, graph: &Pslg, certificate: &mut Certificate) -> Self {
+        // Of polygons the holes and regions that meshes are made of.
+        let prepared = Some(graph).filter(|g| !g.polygons.is_empty());
+        let prepared = prepared.and_then(|graph| Mesher::new().prepared_pslg(graph).ok());
+        // Places that are merged would have other numbers.
+        let prepared = prepared.filter(|p| p.points.starts_with(&graph.points));
+        let graph = prepared.as_ref().unwrap_or(graph);
         let domain = Wanted::of(graph, certificate.bounds.min_deg());
         let mut segments = check_segments(mesh, &graph.points, &domain.pieces);
         let midpoints: Vec<DVec2> = segments.missing.iter().map(|m| m.ends[0].midpoint(m.ends[1])).collect();

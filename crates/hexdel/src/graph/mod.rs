@@ -318,17 +318,36 @@ impl Mesher {
         self.on_threads(|| self.run_pslg(pslg, monitor))
     }
 
+    /// The graph that is meshed: repaired if asked for, borders of polygons divided where
+    /// they meet others, and holes and regions in place of polygons.
+    ///
+    /// # Errors
+    ///
+    /// As [`triangulate_pslg`](Self::triangulate_pslg).
+    pub fn prepared_pslg(&self, pslg: &Pslg) -> Result<Pslg, Error> {
+        let mut repaired = Repaired::new(pslg, self.graph.repair)?;
+        let validated = validate(&repaired.graph).map_err(|e| repaired.as_given(e))?;
+        let (validated, _) = self.seeded(validated, self.domain_of(pslg).extent(), pslg)?;
+        repaired.seed(validated.pslg());
+        Ok(repaired.graph)
+    }
+
+    fn domain_of(&self, graph: &Pslg) -> Domain {
+        let usual = if graph.segments.is_empty() { Domain::Hexagon } else { Domain::Inside };
+        self.graph.domain.unwrap_or(usual)
+    }
+
     fn run_pslg(&self, pslg: &Pslg, monitor: &dyn Monitor) -> Result<PslgTriangulation, Error> {
         self.refuse_for_graphs()?;
         let watch = Stopwatch::new(monitor);
         let mut repaired = Repaired::new(pslg, self.graph.repair)?;
         let graph = &repaired.graph;
-        let given = self.graph.domain;
-        let domain =
-            given.unwrap_or(if graph.segments.is_empty() { Domain::Hexagon } else { Domain::Inside });
+        let domain = self.domain_of(graph);
         let boxed = (domain == Domain::Box).then(|| boxed::with_box(graph));
         let validated = validate(boxed.as_ref().unwrap_or(graph)).map_err(|e| repaired.as_given(e))?;
-        let (validated, warnings) = self.seeded(validated, domain.extent(), pslg)?;
+        let (validated, mut warnings) = self.seeded(validated, domain.extent(), pslg)?;
+        let unasked = repaired.report.as_ref().filter(|_| self.graph.repair.is_none());
+        warnings.extend(unasked.and_then(warning::of_division));
         repaired.seed(validated.pslg());
         let graph = &repaired.graph;
         self.check_graph_size(&graph.points)?;
@@ -343,7 +362,7 @@ impl Mesher {
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
         let made = PslgTriangulation::new(made, segments, repaired, domain, watch.seconds());
-        Ok(PslgTriangulation { size_ratio, warnings, ..made })
+        Ok(PslgTriangulation { warnings, size_ratio, ..made })
     }
 
     /// A graph with holes and regions in place of polygons, and what is to be said of them.

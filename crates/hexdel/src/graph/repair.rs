@@ -47,7 +47,9 @@ impl Repaired {
                     return Err(ValidateError::Crossing { segments: segments.map(|s| s as usize), at }.into());
                 }
                 Repair::MergedSegments { segments, ends } if !owners.differ(segments) => {
-                    return Err(ValidateError::Overlap { segments: segments.map(|s| s as usize), ends }.into());
+                    return Err(
+                        ValidateError::Overlap { segments: segments.map(|s| s as usize), ends }.into()
+                    );
                 }
                 _ => {}
             }
@@ -137,7 +139,7 @@ impl Owners {
     fn differ(&self, segments: [u32; 2]) -> bool {
         let [a, b] = segments.map(|s| self.of_segment(s));
         let shared = a.iter().any(|x| b.iter().any(|y| x[1] == y[1]));
-        !shared && !(a.is_empty() && b.is_empty())
+        !(shared || a.is_empty() && b.is_empty())
     }
 }
 

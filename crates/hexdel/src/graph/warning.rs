@@ -1,7 +1,7 @@
 //! What a graph says that a mesh makes no use of, or could be meant otherwise.
 
 use hexdel_geom::{DVec2, Pslg};
-use hexdel_pslg::{Cover, StrayRing, UnusedSeed};
+use hexdel_pslg::{Cover, Repair, RepairReport, StrayRing, UnusedSeed};
 
 /// Something about a graph that its author should know of. The mesh is what was asked
 /// for all the same.
@@ -22,6 +22,14 @@ pub enum Warning {
         /// The area of all parts, square input units.
         area: f64,
     },
+    /// Borders of polygons cross or run along others, or lines, without common points, and
+    /// were divided there; [`repairs`](crate::PslgTriangulation::repairs) has all places.
+    DividedBorders {
+        /// The first place.
+        at: DVec2,
+        /// How many places there are.
+        places: usize,
+    },
     /// A hole of a polygon lies in another one, or not in the polygon.
     StrayRing(StrayRing),
     /// A hole or region changes nothing.
@@ -32,7 +40,7 @@ impl Warning {
     /// Where it is.
     pub fn at(&self) -> DVec2 {
         match self {
-            Self::Overlap { at, .. } => *at,
+            Self::Overlap { at, .. } | Self::DividedBorders { at, .. } => *at,
             Self::StrayRing(ring) => ring.at,
             Self::UnusedSeed(seed) => seed.at,
         }
@@ -44,8 +52,17 @@ impl std::fmt::Display for Warning {
         match self {
             Self::Overlap { polygons: [a, b], attributes, at, area } => {
                 let [first, last] = attributes;
-                write!(f, "polygons {a} (attribute {first}) and {b} (attribute {last}) overlap at ({}, {}), ", at.x, at.y)?;
+                write!(
+                    f,
+                    "polygons {a} (attribute {first}) and {b} (attribute {last}) overlap at ({}, {}), ",
+                    at.x, at.y
+                )?;
                 write!(f, "area {area}: {last} is taken there")
+            }
+            Self::DividedBorders { at, places } => {
+                write!(f, "borders of polygons were divided at ({}, {}) ", at.x, at.y)?;
+                let more = places - 1;
+                write!(f, "and {more} other places, where they cross or run along each other")
             }
             Self::StrayRing(StrayRing { polygon, ring, other, at }) => {
                 write!(f, "ring {ring} of polygon {polygon} takes nothing away at ({}, {}): ", at.x, at.y)?;
@@ -57,6 +74,18 @@ impl std::fmt::Display for Warning {
             Self::UnusedSeed(seed) => write!(f, "{seed}"),
         }
     }
+}
+
+/// Where borders were divided without being asked for.
+pub(super) fn of_division(report: &RepairReport) -> Option<Warning> {
+    let place = |done: &Repair| match *done {
+        Repair::MergedSegments { ends, .. } => Some(ends[0]),
+        Repair::DividedAtCrossing { at, .. } => Some(at),
+        _ => None,
+    };
+    let mut places = report.repairs.iter().filter_map(place);
+    let at = places.next()?;
+    Some(Warning::DividedBorders { at, places: 1 + places.count() })
 }
 
 /// The overlaps, which an option makes errors, and the stray rings.
