@@ -1,6 +1,7 @@
 //! Why a graph is no input, and why one could not be meshed.
 
-use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, PslgLayoutError};
+use crate::geometry::nearest_places;
+use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, Pslg, PslgLayoutError};
 use hexdel_optimize::OptimizeError;
 use thiserror::Error;
 
@@ -106,23 +107,28 @@ pub enum ValidateError {
 pub enum PslgError {
     /// Two parts of the input are closer than their coordinates can resolve:
     /// vertices between them would be rounded by more than angles bear.
-    #[error("{} and {} are too close at ({}, {}): hexagons of {spacing:e} do not tell them apart",
-        items[0], items[1], at.x, at.y)]
+    #[error("{} and {} are too close at ({}, {}): {}hexagons of {spacing:e} do not tell them apart",
+        items[0], items[1], at.x, at.y, apart(*distance))]
     TooClose {
         /// The two parts.
         items: [Feature; 2],
         /// Where.
         at: DVec2,
+        /// How far apart they are; `None` if that is not known, or they meet elsewhere.
+        /// Repair within this distance makes them one.
+        distance: Option<f64>,
         /// Spacing of the finest hexagons that the coordinates resolve there.
         spacing: f64,
     },
-    /// The budget of triangles is used up.
-    #[error("more than {limit} triangles are needed; the finest around ({}, {})", at.x, at.y)]
+    /// The budget of triangles is used up, or would be.
+    #[error("more than {limit} triangles are needed; the finest around ({}, {}){}", at.x, at.y, narrows(near.as_ref()))]
     TooMany {
         /// The limit.
         limit: usize,
         /// Where the size is smallest.
         at: DVec2,
+        /// What is so close there that it asks for them, if that is known.
+        near: Option<Near>,
     },
     /// The inside was asked for, and nothing is enclosed by segments.
     #[error("no part of the plane is enclosed by segments and no hole")]
@@ -169,6 +175,63 @@ pub enum PslgError {
     /// The monitor asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// Two parts of the input that are near each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// The two parts.
+    pub items: [Feature; 2],
+    /// How far apart they are; repair within this distance makes them one.
+    pub distance: f64,
+}
+
+impl PslgError {
+    /// Too many triangles, for whatever reason.
+    pub(crate) fn too_many(limit: usize, at: DVec2) -> Self {
+        Self::TooMany { limit, at, near: None }
+    }
+
+    /// The distance between two parts of the input that keeps it from being meshed, if
+    /// that is why: `repair` within it makes them one.
+    pub fn too_near(&self) -> Option<f64> {
+        match self {
+            Self::TooClose { distance, .. } => *distance,
+            Self::TooMany { near, .. } => near.map(|near| near.distance),
+            _ => None,
+        }
+    }
+
+    /// With the distance of what is too close in it.
+    pub(crate) fn measured(self, pslg: &Pslg) -> Self {
+        match self {
+            Self::TooClose { items, at, distance: None, spacing } => {
+                Self::TooClose { items, at, distance: between(items, pslg), spacing }
+            }
+            other => other,
+        }
+    }
+}
+
+/// How far two parts of a graph are from each other, if they do not meet.
+pub(crate) fn between(items: [Feature; 2], pslg: &Pslg) -> Option<f64> {
+    let ends = |item| match item {
+        Feature::Point(i) => Some([pslg.points[i]; 2]),
+        Feature::Segment(i) => Some(pslg.segments[i].map(|p| pslg.points[p as usize])),
+        Feature::Hull | Feature::Crossing => None,
+    };
+    let [a, b] = nearest_places(ends(items[0])?, ends(items[1])?);
+    Some(a.distance(b)).filter(|&distance| distance > 0.0)
+}
+
+fn apart(distance: Option<f64>) -> String {
+    distance.map_or_else(String::new, |distance| format!("they are {distance:e} apart, and "))
+}
+
+fn narrows(near: Option<&Near>) -> String {
+    near.map_or_else(String::new, |Near { items: [a, b], distance }| {
+        format!(", where {a} and {b} are {distance:e} apart")
+    })
 }
 
 /// A point or segment of the input, by index.

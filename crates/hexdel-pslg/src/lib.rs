@@ -19,6 +19,7 @@
 //! | `validate` | is it planar? |
 //! | `pairs`, `repair` | what touches, and what to do about it |
 //! | `sizing` | how fine the grid must be |
+//! | `estimate` | what would be too large is refused before the work |
 //! | `limits` | limits on the area of triangles and the length of edges |
 //! | `faces` | polygons become holes and regions |
 //! | `hull` | the convex hull as a boundary |
@@ -42,6 +43,7 @@ mod carve;
 mod compact;
 mod embed;
 mod error;
+mod estimate;
 mod faces;
 mod fans;
 mod field;
@@ -63,7 +65,7 @@ mod seeds;
 mod sizing;
 mod validate;
 pub use carve::Carved;
-pub use error::{Feature, PslgError, ValidateError};
+pub use error::{Feature, Near, PslgError, ValidateError};
 pub use faces::{Cover, Overlap, StrayRing};
 pub use hexdel_optimize::Effort;
 pub use mesher::{mesh, mesh_sized};

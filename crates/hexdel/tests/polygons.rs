@@ -5,7 +5,7 @@
 
 mod common;
 
-use hexdel::pslg::{Seed, Unused, ValidateError};
+use hexdel::pslg::{Feature, PslgError, Seed, Unused, ValidateError};
 use hexdel::{
     DVec2, Domain, Error, Mesher, Overlaps, Pslg, PslgTriangulation, TriangleId, Warning, triangulate_pslg,
 };
@@ -66,7 +66,7 @@ fn graphs_of_triangle_keep_its_seeds() {
     hold("rtriangle_twoholes.poly", &[(0.0, holes)]);
     hold("two_squares_corner.poly", &[(0.0, 125.0)]);
     hold("two_rects.poly", &[(1.0, 100.0), (2.0, 25.0)]);
-    hold("nested_circles.poly", &[(0.0, 24.0), (1.0, 3.0)]);
+    hold("nested_circles.poly", &[(1.0, 24.0), (2.0, 3.0)]);
     hold("reflex6.poly", &[(0.0, 0.365)]);
     hold("envelope.poly", &[(0.0, 750_000.0)]);
     for (area, least) in [(180.0, 7_000), (30.0, 40_000)] {
@@ -184,4 +184,39 @@ fn unused_holes_and_regions_are_named() {
     rects.holes = vec![DVec2::new(100.0, 0.0)];
     assert_eq!(only(&triangulate_pslg(&rects).unwrap()).seed, Seed::Hole(0));
     assert_eq!(only(&triangulate_pslg(&rects).unwrap()).why, Unused::Outside);
+}
+
+/// A notch is narrow on the side that is not meshed.
+#[test]
+fn what_is_carved_away_asks_for_nothing() {
+    for (name, most) in [("notch_2deg.poly", 30), ("notch_7deg.poly", 20), ("slivergap.geojson", 8)] {
+        let made = made(name);
+        let (triangles, least) = (made.mesh.triangles.len(), made.certificate.min_angle_deg);
+        assert!(made.exempt.is_empty() && least >= 30.0 - 1e-9, "{name}: {least}");
+        assert!(triangles <= most, "{name}: {triangles}");
+    }
+    hold("notch_2deg.poly", &[(0.0, 3.982_544_935_072)]);
+    hold("slivergap.geojson", &[(1.0, 12.0), (2.0, 11.999_999_7)]);
+    // A slit of a millionth.
+    hold("sliver_1e6.geojson", &[(1.0, 0.952_887_289_305)]);
+}
+
+#[test]
+fn what_is_too_near_is_named_before_the_work() {
+    // In the hull the gap between two borders is to be meshed.
+    let hull = Mesher::new().domain(Domain::Hull).triangulate_pslg(&read("slivergap.geojson"));
+    let Err(Error::Pslg(PslgError::TooMany { near: Some(near), .. })) = hull else { panic!("{hull:?}") };
+    assert_eq!(near.items, [Feature::Segment(1), Feature::Segment(7)]);
+    assert!((near.distance - 1e-7).abs() < 1e-15);
+    let mesher = Mesher::new().domain(Domain::Hull).repair_within(2.0 * near.distance);
+    let joined = mesher.triangulate_pslg(&read("slivergap.geojson")).unwrap();
+    assert!(joined.holds() && joined.mesh.triangles.len() < 10);
+
+    for (name, distance) in [("annulus_linspace.poly", 2.45e-16), ("rotated_touch.geojson", 1e-15)] {
+        let error = triangulate_pslg(&read(name)).unwrap_err();
+        let Error::Pslg(PslgError::TooClose { distance: Some(found), .. }) = error else { panic!("{error}") };
+        assert!(found <= distance, "{name}: {found:e}");
+        let mended = Mesher::new().repair().triangulate_pslg(&read(name)).unwrap();
+        assert!(mended.holds() && mended.mesh.triangles.len() < 150, "{name}");
+    }
 }

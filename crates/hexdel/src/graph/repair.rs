@@ -3,7 +3,7 @@
 use super::Tolerance;
 use crate::error::Error;
 use hexdel_geom::{DVec2, Pslg};
-use hexdel_pslg::{Feature, PslgError, Repair, RepairReport, ValidateError, repair, violations};
+use hexdel_pslg::{Feature, Near, PslgError, Repair, RepairReport, ValidateError, repair, violations};
 
 /// The tolerance over the graph's size; a hundredth of the width of the thinnest
 /// hair that coordinates of that size resolve angles in would still do.
@@ -90,8 +90,12 @@ impl Repaired {
             other => other,
         };
         let error = match error {
-            PslgError::TooClose { items, at, spacing } => {
-                PslgError::TooClose { items: items.map(item), at, spacing }
+            PslgError::TooClose { items, at, distance, spacing } => {
+                PslgError::TooClose { items: items.map(item), at, distance, spacing }
+            }
+            PslgError::TooMany { limit, at, near } => {
+                let near = near.map(|near| Near { items: near.items.map(item), ..near });
+                PslgError::TooMany { limit, at, near }
             }
             PslgError::NotRecovered { item: part, at } => PslgError::NotRecovered { item: item(part), at },
             other => other,
