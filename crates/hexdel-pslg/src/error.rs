@@ -1,7 +1,7 @@
 //! Why a graph is no input, and why one could not be meshed.
 
 use crate::geometry::nearest_places;
-use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, Pslg, PslgLayoutError};
+use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, Pslg, PslgLayoutError, orient2d};
 use hexdel_optimize::OptimizeError;
 use thiserror::Error;
 
@@ -192,11 +192,12 @@ impl PslgError {
         Self::TooMany { limit, at, near: None }
     }
 
-    /// The distance between two parts of the input that keeps it from being meshed, if
-    /// that is why: `repair` within it makes them one.
-    pub fn too_near(&self) -> Option<f64> {
+    /// A tolerance for `repair` that makes one of the two parts of the input that keep it from
+    /// being meshed, if that is why.
+    pub fn repair_within(&self) -> Option<f64> {
         match self {
-            Self::TooClose { distance, .. } => *distance,
+            // What coordinates do not resolve is as good as one.
+            Self::TooClose { distance, spacing, .. } => Some(distance.unwrap_or(0.0).max(*spacing)),
             Self::TooMany { near, .. } => near.map(|near| near.distance),
             _ => None,
         }
@@ -220,8 +221,16 @@ pub(crate) fn between(items: [Feature; 2], pslg: &Pslg) -> Option<f64> {
         Feature::Segment(i) => Some(pslg.segments[i].map(|p| pslg.points[p as usize])),
         Feature::Hull | Feature::Crossing => None,
     };
-    let [a, b] = nearest_places(ends(items[0])?, ends(items[1])?);
-    Some(a.distance(b)).filter(|&distance| distance > 0.0)
+    let [first, second] = [ends(items[0])?, ends(items[1])?];
+    let [a, b] = nearest_places(first, second);
+    let off = |p: DVec2, [c, d]: [DVec2; 2]| orient2d(c, d, p).abs() / c.distance(d);
+    let distance = match a.distance(b) {
+        // Of what is nearer than the last place predicates tell the distance.
+        0.0 if first.contains(&a) && second[0] != second[1] => off(a, second),
+        0.0 if second.contains(&b) && first[0] != first[1] => off(b, first),
+        distance => distance,
+    };
+    Some(distance).filter(|&distance| distance > 0.0)
 }
 
 fn apart(distance: Option<f64>) -> String {

@@ -71,7 +71,7 @@ pub use hexdel_optimize::Effort;
 pub use mesher::{mesh, mesh_sized};
 pub use options::{Extent, Options, SegmentMethod};
 pub use output::vertex_markers;
-pub use repair::{Repair, RepairReport, repair};
+pub use repair::{NEARLY_ON_DEG, Repair, RepairReport, repair, repair_nearly_on};
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge, holds};
 pub use sectors::{NarrowCorner, hopeless_pairs, narrow_corners};
 pub use seeds::{Areas, Seed, Unused, UnusedSeed};

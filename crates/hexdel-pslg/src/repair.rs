@@ -6,7 +6,8 @@
 //! go on until there are none, or are given up. Everything done is reported.
 
 use crate::error::ValidateError;
-use crate::pairs::{Contacts, contacts};
+use crate::geometry::distance_sq;
+use crate::pairs::{Contacts, Touch, contacts};
 use crate::validate::crossing;
 use hexdel_geom::{DVec2, PointSet, Polygon, Pslg};
 use rustc_hash::FxHashMap;
@@ -51,6 +52,8 @@ pub enum Repair {
         segment: u32,
         /// Where the point is.
         at: DVec2,
+        /// How far from the segment it was.
+        distance: f64,
     },
     /// Two crossing segments were divided where they cross.
     DividedAtCrossing {
@@ -108,13 +111,50 @@ pub struct RepairReport {
 /// # Ok::<(), hexdel_pslg::ValidateError>(())
 /// ```
 pub fn repair(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), ValidateError> {
+    run(pslg, tolerance, 0.0)
+}
+
+/// As [`repair`], and points that nearly lie on a segment divide it, too: those seen
+/// from both of its ends at less than [`NEARLY_ON_DEG`], however far that is.
+///
+/// No mesh keeps bounds between a segment and such a point: strips of so little width take thousands
+/// of triangles.
+///
+/// # Errors
+///
+/// As [`repair`].
+///
+/// # Complexity
+///
+/// As of [`repair`].
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::{DVec2, Pslg};
+///
+/// let mut hanging = Pslg::from_points(vec![DVec2::ZERO, DVec2::new(1e3, 0.0), DVec2::new(500.0, 0.1)]);
+/// hanging.segments = vec![[0, 1]];
+/// let (mended, _) = hexdel_pslg::repair_nearly_on(&hanging, 1e-6)?;
+/// assert_eq!(mended.segments, [[0, 2], [2, 1]]);
+/// # Ok::<(), hexdel_pslg::ValidateError>(())
+/// ```
+pub fn repair_nearly_on(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), ValidateError> {
+    run(pslg, tolerance, NEARLY_ON_DEG.to_radians())
+}
+
+/// The angle at which a point nearly lies on a segment, degrees: a sixth of 0.09, below which nothing
+/// is kept between two segments.
+pub const NEARLY_ON_DEG: f64 = 0.015;
+
+fn run(pslg: &Pslg, tolerance: f64, angle: f64) -> Result<(Pslg, RepairReport), ValidateError> {
     pslg.check_layout()?;
     PointSet::new(&pslg.points)?;
     let tolerance = if tolerance.is_finite() { tolerance.max(0.0) } else { 0.0 };
     let n = pslg.points.len();
     let mut mender = Mender {
         pslg,
-        tolerance,
+        touch: Touch { distance: tolerance, angle },
         points: pslg.points.clone(),
         into: (0..n as u32).collect(),
         markers: pslg.point_markers.clone(),
@@ -168,7 +208,7 @@ fn odd(mut list: Vec<u32>) -> Vec<u32> {
 
 struct Mender<'a> {
     pslg: &'a Pslg,
-    tolerance: f64,
+    touch: Touch,
     /// All points ever, those given first.
     points: Vec<DVec2>,
     /// The point that each has gone into: itself or an earlier one that has
@@ -189,13 +229,13 @@ impl Mender<'_> {
                 continue;
             }
             let p = self.points[i as usize];
-            let [x, y] = [p.x, p.y].map(|c| cells(c, self.tolerance));
+            let [x, y] = [p.x, p.y].map(|c| cells(c, self.touch.distance));
             let around = x.iter().flat_map(|&x| y.iter().map(move |&y| [x, y]));
             let first = around
                 .filter_map(|key| grid.get(&key))
                 .flatten()
                 .copied()
-                .filter(|&j| p.distance(self.points[j as usize]) <= self.tolerance)
+                .filter(|&j| p.distance(self.points[j as usize]) <= self.touch.distance)
                 .min();
             match first {
                 Some(j) => {
@@ -255,7 +295,7 @@ impl Mender<'_> {
     /// there was anything to do.
     fn divide(&mut self) -> bool {
         let ends: Vec<[u32; 2]> = self.segments.iter().map(|s| s.ends).collect();
-        let mut found = contacts(&self.points, &ends, self.tolerance);
+        let mut found = contacts(&self.points, &ends, self.touch);
         // Merged points are none.
         found.touching.retain(|&(_, p)| self.into[p as usize] == p);
         let cuts = self.cuts(&found);
@@ -270,8 +310,10 @@ impl Mender<'_> {
     fn cuts(&mut self, found: &Contacts) -> Vec<(u32, u32)> {
         let mut cuts = found.touching.clone();
         for &(segment, p) in &cuts {
-            let segment = self.segments[segment as usize].sources[0];
-            self.report.repairs.push(Repair::DividedAtPoint { segment, at: self.points[p as usize] });
+            let part = &self.segments[segment as usize];
+            let ([a, b], at) = (part.ends.map(|p| self.points[p as usize]), self.points[p as usize]);
+            let (segment, distance) = (part.sources[0], distance_sq(at, a, b).sqrt());
+            self.report.repairs.push(Repair::DividedAtPoint { segment, at, distance });
         }
         // Dividing at points settles most crossings near them.
         if cuts.is_empty() {

@@ -73,7 +73,7 @@ pub(crate) struct Args {
     /// The same by place: a raster (.asc), or points with sizes (x y size)
     #[arg(long, value_name = "FILE")]
     size_file: Option<PathBuf>,
-    /// Merge close points, split crossing segments [TOL: 1e-9 of the size]
+    /// Merge close points, split segments at crossings and points [TOL: 1e-9 of the size]
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
     repair: Option<Option<f64>>,

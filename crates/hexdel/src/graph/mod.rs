@@ -219,7 +219,8 @@ impl Mesher {
 
     /// Repairs graphs first: points within a billionth of the graph's size
     /// become one, segments are divided where they cross and where points lie on
-    /// them. [`PslgTriangulation::repairs`] tells all that was done.
+    /// them, or nearly so: seen from both ends at less than 0.015 degrees.
+    /// [`PslgTriangulation::repairs`] tells all that was done.
     ///
     /// ```
     /// # use hexdel::{DVec2, Error, Mesher, Pslg};
@@ -239,7 +240,8 @@ impl Mesher {
         self
     }
 
-    /// As [`repair`](Self::repair), with a tolerance in input units.
+    /// As [`repair`](Self::repair), with a tolerance in input units for points near others and
+    /// near segments.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, Pslg};
@@ -394,7 +396,12 @@ impl Mesher {
         domain: Domain,
         monitor: &dyn Monitor,
     ) -> Result<PslgMesh, PslgError> {
-        let options = self.pslg_options(domain);
+        let mut options = self.pslg_options(domain);
+        // Without segments there is nothing that asks for less than points do.
+        let points_alone = graph.pslg().segments.is_empty() && domain == Domain::Hexagon;
+        if points_alone && self.graph.near.is_none() && self.bounds.is_none() {
+            options.near = options.far;
+        }
         match &self.size {
             Some(size) => mesh_sized(graph, &options, size, monitor),
             None => mesh(graph, &options, monitor),

@@ -3,7 +3,9 @@
 use super::Tolerance;
 use crate::error::Error;
 use hexdel_geom::{DVec2, Pslg};
-use hexdel_pslg::{Feature, Near, PslgError, Repair, RepairReport, ValidateError, repair, violations};
+use hexdel_pslg::{
+    Feature, Near, PslgError, Repair, RepairReport, ValidateError, repair, repair_nearly_on, violations,
+};
 
 /// The tolerance over the graph's size; a hundredth of the width of the thinnest
 /// hair that coordinates of that size resolve angles in would still do.
@@ -22,13 +24,14 @@ pub(crate) struct Repaired {
 
 impl Repaired {
     pub(super) fn new(given: &Pslg, tolerance: Option<Tolerance>) -> Result<Self, Error> {
-        let tolerance = match tolerance {
+        let (graph, report) = match tolerance {
             None => return Self::divided(given),
-            Some(Tolerance::Relative) => relative(given),
-            Some(Tolerance::Absolute(tolerance)) if tolerance.is_finite() && tolerance >= 0.0 => tolerance,
+            Some(Tolerance::Relative) => repair_nearly_on(given, relative(given))?,
+            Some(Tolerance::Absolute(tolerance)) if tolerance.is_finite() && tolerance >= 0.0 => {
+                repair(given, tolerance)?
+            }
             Some(Tolerance::Absolute(tolerance)) => return Err(Error::InvalidTolerance { tolerance }),
         };
-        let (graph, report) = repair(given, tolerance)?;
         Ok(Self { graph, report: Some(report) })
     }
 

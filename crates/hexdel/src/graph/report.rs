@@ -209,8 +209,11 @@ impl RepairEntry {
             Repair::MergedSegments { segments: [a, b], ends } => {
                 (format!("segments {a} and {b} had a part in common"), ends[0])
             }
-            Repair::DividedAtPoint { segment, at } => {
+            Repair::DividedAtPoint { segment, at, distance: 0.0 } => {
                 (format!("segment {segment} passed through a point"), at)
+            }
+            Repair::DividedAtPoint { segment, at, distance } => {
+                (format!("segment {segment} was bent to a point {distance:e} away"), at)
             }
             Repair::DividedAtCrossing { segments: [a, b], at } => {
                 (format!("segments {a} and {b} crossed"), at)
