@@ -1,10 +1,10 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
-use super::{Args, PslgName, limited, write};
+use super::{Args, OverlapsName, PslgName, limited, write};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
-use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
+use hexdel::{AngleBounds, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
 use hexdel_io::{MarkedEdge, MeshView, Picture};
 use std::fmt::{Display, Write as _};
 
@@ -71,6 +71,12 @@ impl Finished<'_> {
         if !self.quiet {
             outputs.tell(&summary(made, &report))?;
         }
+        for warning in made.warnings.iter().take(SHOWN) {
+            warn(&format!("{}: {warning}", self.file));
+        }
+        if made.warnings.len() > SHOWN {
+            warn(&format!("{}: {} more, see --report", self.file, made.warnings.len() - SHOWN));
+        }
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));
         }
@@ -102,6 +108,9 @@ fn mesher(args: &Args) -> Result<Mesher, Failure> {
             PslgName::Conform => SegmentMethod::Conform,
             PslgName::Paper => SegmentMethod::Paper,
         });
+    }
+    if args.overlaps == OverlapsName::Refuse {
+        mesher = mesher.overlaps(Overlaps::Refuse);
     }
     Ok(match args.repair {
         None => mesher,
