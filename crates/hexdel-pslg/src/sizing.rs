@@ -106,7 +106,10 @@ pub(crate) fn refine(
         // A leaf at a feature stands for two triangles at least, and a
         // subdivision makes three more vertices.
         if 6 * (leaves.len() + wanted.len()) > features.max_triangles {
-            return Err(PslgError::TooMany { limit: features.max_triangles, at: lattice.position(finest) });
+            return Err(PslgError::TooMany {
+                limit: features.max_triangles,
+                at: Some(lattice.position(finest)),
+            });
         }
         refiner.subdivide_all(wanted, monitor).map_err(|error| match error {
             RefineError::Cancelled(c) => PslgError::Cancelled(c),

@@ -119,7 +119,7 @@ impl Scene<'_> {
                     at: self.sites[pair.a],
                     spacing: pair.distance,
                 },
-                None => PslgError::TooMany { limit: self.max_triangles, at: DVec2::ZERO },
+                None => PslgError::TooMany { limit: self.max_triangles, at: None },
             },
         }
     }
@@ -210,7 +210,7 @@ impl Chains {
                 let piece = self.chain_of.iter().position(|&c| c as usize == i).unwrap_or(0);
                 return Err(PslgError::TooMany {
                     limit: scene.max_triangles,
-                    at: scene.ends(piece as u32)[0],
+                    at: Some(scene.ends(piece as u32)[0]),
                 });
             }
         }
@@ -242,7 +242,7 @@ impl Chains {
             if level >= Grid::MAX_LEVELS || spacing < least_spacing(scene) {
                 return Err(match raise.culprits {
                     Some(items) => PslgError::TooClose { items, at, spacing },
-                    None => PslgError::TooMany { limit: scene.max_triangles, at },
+                    None => PslgError::TooMany { limit: scene.max_triangles, at: Some(at) },
                 });
             }
             self.level[chain] = level;
