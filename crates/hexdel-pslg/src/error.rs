@@ -1,6 +1,7 @@
 //! Why a graph is no input, and why one could not be meshed.
 
 use crate::geometry::nearest_places;
+use crate::validate::Validated;
 use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, Pslg, PslgLayoutError, orient2d};
 use hexdel_optimize::OptimizeError;
 use thiserror::Error;
@@ -121,18 +122,23 @@ pub enum PslgError {
         spacing: f64,
     },
     /// The budget of triangles is used up, or would be.
-    #[error("more than {limit} triangles are needed; the finest around ({}, {}){}", at.x, at.y, narrows(near.as_ref()))]
+    #[error("more than {limit} triangles are needed{}{}", around(*at), narrows(near.as_ref()))]
     TooMany {
         /// The limit.
         limit: usize,
-        /// Where the size is smallest.
-        at: DVec2,
+        /// Where the size is smallest, if it is known.
+        at: Option<DVec2>,
         /// What is so close there that it asks for them, if that is known.
         near: Option<Near>,
     },
     /// The inside was asked for, and nothing is enclosed by segments.
-    #[error("no part of the plane is enclosed by segments and no hole")]
-    NothingEnclosed,
+    #[error("no part of the plane is enclosed by segments and no hole{}", listed(loose, *count))]
+    NothingEnclosed {
+        /// The first five points where only one segment ends.
+        loose: Vec<LooseEnd>,
+        /// How many there are.
+        count: usize,
+    },
     /// The graph has polygons, of which meshes know nothing.
     #[error("polygons must be made holes and regions first, by `Validated::seeded`")]
     NotSeeded,
@@ -188,8 +194,8 @@ pub struct Near {
 
 impl PslgError {
     /// Too many triangles, for whatever reason.
-    pub(crate) fn too_many(limit: usize, at: DVec2) -> Self {
-        Self::TooMany { limit, at, near: None }
+    pub(crate) fn too_many(limit: usize, at: impl Into<Option<DVec2>>) -> Self {
+        Self::TooMany { limit, at: at.into(), near: None }
     }
 
     /// A tolerance for `repair` that makes one of the two parts of the input that keep it from
@@ -241,6 +247,52 @@ fn narrows(near: Option<&Near>) -> String {
     near.map_or_else(String::new, |Near { items: [a, b], distance }| {
         format!(", where {a} and {b} are {distance:e} apart")
     })
+}
+
+/// A point where only one segment ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LooseEnd {
+    /// Index of the point.
+    pub point: usize,
+    /// Where it is.
+    pub at: DVec2,
+}
+
+/// Loose ends that are told one by one.
+const TOLD: usize = 5;
+
+impl PslgError {
+    /// Nothing is enclosed: where segments end loose.
+    pub(crate) fn nothing_enclosed(input: &Validated) -> Self {
+        let mut ends = vec![0_u32; input.points.sites().len()];
+        let segments = input.pieces.iter().filter(|piece| matches!(piece.feature(), Feature::Segment(_)));
+        segments.flat_map(|piece| piece.ends).for_each(|site| ends[site as usize] += 1);
+        let loose = || (0..ends.len()).filter(|&site| ends[site] == 1);
+        let told = |site: usize| LooseEnd {
+            point: input.points.input_of_site()[site] as usize,
+            at: input.points.sites()[site],
+        };
+        Self::NothingEnclosed { loose: loose().take(TOLD).map(told).collect(), count: loose().count() }
+    }
+}
+
+/// Where the finest triangles are, as the end of a sentence.
+fn around(at: Option<DVec2>) -> String {
+    at.map_or_else(String::new, |at| format!("; the finest around ({}, {})", at.x, at.y))
+}
+
+/// The points at which segments end loose, as the end of a sentence.
+fn listed(loose: &[LooseEnd], count: usize) -> String {
+    if loose.is_empty() {
+        return String::new();
+    }
+    let ends: Vec<String> =
+        loose.iter().map(|end| format!("point {} at ({}, {})", end.point, end.at.x, end.at.y)).collect();
+    let more = match count.saturating_sub(loose.len()) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("; segments end loose at {}{more}", ends.join(", "))
 }
 
 /// A point or segment of the input, by index.

@@ -18,6 +18,8 @@
 //! |---|---|
 //! | `validate` | is it planar? |
 //! | `pairs`, `repair` | what touches, and what to do about it |
+//! | `repeated` | segments that are superfluous |
+//! | `interpolate` | values between points |
 //! | `sizing` | how fine the grid must be |
 //! | `estimate` | what would be too large is refused before the work |
 //! | `limits` | limits on the area of triangles and the length of edges |
@@ -50,6 +52,7 @@ mod field;
 mod fit;
 mod geometry;
 mod hull;
+mod interpolate;
 mod limits;
 mod locator;
 mod mesher;
@@ -59,19 +62,21 @@ mod output;
 mod pairs;
 mod paper;
 mod repair;
+mod repeated;
 mod result;
 mod sectors;
 mod seeds;
 mod sizing;
 mod validate;
 pub use carve::Carved;
-pub use error::{Feature, Near, PslgError, ValidateError};
+pub use error::{Feature, LooseEnd, Near, PslgError, ValidateError};
 pub use faces::{Cover, Overlap, StrayRing};
 pub use hexdel_optimize::Effort;
 pub use mesher::{mesh, mesh_sized};
 pub use options::{Extent, Options, SegmentMethod};
 pub use output::vertex_markers;
 pub use repair::{NEARLY_ON_DEG, Repair, RepairReport, repair, repair_nearly_on};
+pub use repeated::drop_repeated;
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge, holds};
 pub use sectors::{NarrowCorner, hopeless_pairs, narrow_corners};
 pub use seeds::{Areas, Seed, Unused, UnusedSeed};

@@ -352,7 +352,7 @@ impl<'a> Mesher<'a> {
         let mut refiner = refine(wishes.lattice, &features, monitor)?;
         let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
         let domain = self.with_fine_rim(domain, refiner.grid().lattice());
-        let too_many = || PslgError::too_many(self.options.max_triangles, wishes.lattice.origin());
+        let too_many = || PslgError::too_many(self.options.max_triangles, None);
         let dual =
             extract(refiner.grid_mut(), &[], domain, Relocation::Full, monitor).map_err(|e| match e {
                 DualError::Cancelled(c) => PslgError::Cancelled(c),
@@ -364,7 +364,7 @@ impl<'a> Mesher<'a> {
         let mut net = embed(Net::of(&dual.mesh), &self.scene, monitor)?;
         carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
         if net.alive().next().is_none() {
-            return Err(PslgError::NothingEnclosed);
+            return Err(PslgError::nothing_enclosed(self.input));
         }
         let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
         optimise(&mut net, self.judge(), &excused, self.deadline, monitor)?;

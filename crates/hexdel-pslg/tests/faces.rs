@@ -60,7 +60,7 @@ fn meshes_as(seed: u64, seeded: &Validated, expected: &BTreeMap<u64, f64>) -> bo
     let made = match mesh(seeded, &options, &Unwatched) {
         Ok(made) => made,
         Err(PslgError::TooMany { .. } | PslgError::TooClose { .. }) => return false,
-        Err(PslgError::NothingEnclosed) => return true,
+        Err(PslgError::NothingEnclosed { .. }) => return true,
         Err(error) => panic!("seed {seed}: {error}"),
     };
     let triangles = made.mesh.triangles.iter().zip(&made.region_of_triangle);

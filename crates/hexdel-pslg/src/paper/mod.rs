@@ -85,7 +85,7 @@ pub(crate) fn mesh(
         attempt += 1;
     };
     if net.alive().next().is_none() {
-        return Err(PslgError::NothingEnclosed);
+        return Err(PslgError::nothing_enclosed(input));
     }
     check(monitor)?;
     let wedges = Wedges::default();
@@ -166,7 +166,7 @@ fn plain(
     monitor: &dyn Monitor,
 ) -> Result<Plain, PslgError> {
     let lattice = *refiner.grid().lattice();
-    let too_many = || PslgError::too_many(scene.max_triangles, lattice.origin());
+    let too_many = || PslgError::too_many(scene.max_triangles, None);
     let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, reach);
     let occupants = refiner.occupants();
     // All that is passed gets a vertex to ask for; points come last, so that

@@ -120,7 +120,7 @@ impl Scene<'_> {
                     distance: Some(pair.distance),
                     spacing: pair.distance,
                 },
-                None => PslgError::too_many(self.max_triangles, self.sites[0]),
+                None => PslgError::too_many(self.max_triangles, None),
             },
         }
     }

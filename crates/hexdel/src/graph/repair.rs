@@ -4,7 +4,8 @@ use super::Tolerance;
 use crate::error::Error;
 use hexdel_geom::{DVec2, Pslg};
 use hexdel_pslg::{
-    Feature, Near, PslgError, Repair, RepairReport, ValidateError, repair, repair_nearly_on, violations,
+    Feature, LooseEnd, Near, PslgError, Repair, RepairReport, ValidateError, drop_repeated, repair,
+    repair_nearly_on, violations,
 };
 
 /// The tolerance over the graph's size; a hundredth of the width of the thinnest
@@ -18,13 +19,18 @@ const OF_COORDINATE: f64 = 1e-10;
 /// A graph to be meshed.
 pub(crate) struct Repaired {
     pub(crate) graph: Pslg,
-    /// What was done, if anything was asked for.
+    /// What was done, if anything was asked for or segments were dropped.
     pub(crate) report: Option<RepairReport>,
 }
 
 impl Repaired {
     pub(super) fn new(given: &Pslg, tolerance: Option<Tolerance>) -> Result<Self, Error> {
         let (graph, report) = match tolerance {
+            None if given.polygons.is_empty() => {
+                let dropped = drop_repeated(given).map(|(graph, report)| (graph, Some(report)));
+                let (graph, report) = dropped.unwrap_or_else(|| (given.clone(), None));
+                return Ok(Self { graph, report });
+            }
             None => return Self::divided(given),
             Some(Tolerance::Relative) => repair_nearly_on(given, relative(given))?,
             Some(Tolerance::Absolute(tolerance)) if tolerance.is_finite() && tolerance >= 0.0 => {
@@ -99,6 +105,11 @@ impl Repaired {
             PslgError::TooMany { limit, at, near } => {
                 let near = near.map(|near| Near { items: near.items.map(item), ..near });
                 PslgError::TooMany { limit, at, near }
+            }
+            PslgError::NothingEnclosed { loose, count } => {
+                let given =
+                    |end: LooseEnd| LooseEnd { point: self.point(end.point).unwrap_or(end.point), ..end };
+                PslgError::NothingEnclosed { loose: loose.into_iter().map(given).collect(), count }
             }
             PslgError::NotRecovered { item: part, at } => PslgError::NotRecovered { item: item(part), at },
             other => other,

@@ -22,7 +22,8 @@ pub struct PslgTriangulation {
     pub graph: Pslg,
     /// What repair did, if it was asked for, or if borders of polygons had to be divided
     /// where they cross or run along each other: all changes, and which points and
-    /// segments given have become which of the graph.
+    /// segments given have become which of the graph. Segments without length and those
+    /// that are the same as another are dropped without being asked for, and listed here.
     pub repairs: Option<RepairReport>,
     /// What is not used of the graph, or could have been meant otherwise.
     pub warnings: Vec<Warning>,
