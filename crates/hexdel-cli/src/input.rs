@@ -2,8 +2,8 @@
 
 use crate::exit::Failure;
 use clap::builder::PossibleValuesParser;
-use hexdel::{Pslg, TriMesh};
-use hexdel_io::{MeshFormat, PointFormat};
+use hexdel::Pslg;
+use hexdel_io::{MeshData, MeshFormat, PointFormat};
 use std::io;
 use std::path::Path;
 
@@ -69,11 +69,11 @@ pub(crate) fn read_graph(path: &Path, formats: &Formats) -> Result<Pslg, Failure
     Ok(hexdel_io::read_points_from(io::stdin().lock(), format, STDIN)?)
 }
 
-/// A mesh.
-pub(crate) fn read_mesh(path: &Path, formats: &Formats) -> Result<TriMesh, Failure> {
+/// A mesh with what its file knows about it.
+pub(crate) fn read_mesh_data(path: &Path, formats: &Formats) -> Result<MeshData, Failure> {
     if !is_stream(path) {
-        return Ok(hexdel_io::read_mesh(path)?);
+        return Ok(hexdel_io::read_mesh_data(path)?);
     }
     let format = named(formats.of_input(), MeshFormat::from_name, "meshes", "input")?;
-    Ok(hexdel_io::read_mesh_from(io::stdin().lock(), format, STDIN)?.mesh)
+    Ok(hexdel_io::read_mesh_from(io::stdin().lock(), format, STDIN)?)
 }

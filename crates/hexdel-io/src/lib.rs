@@ -70,6 +70,7 @@ mod off;
 mod picture;
 #[cfg(feature = "png")]
 mod png;
+mod promised;
 mod read;
 mod scene;
 mod second_order;
@@ -98,6 +99,7 @@ pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
+pub use promised::{NotPromised, Promised, PromisedDomain};
 pub use read::{
     holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from,
 };

@@ -53,7 +53,7 @@ impl Domain {
         }
     }
 
-    fn extent(self) -> Extent {
+    pub(super) fn extent(self) -> Extent {
         match self {
             Self::Hexagon => Extent::Hexagon,
             Self::Hull => Extent::Hull,
