@@ -45,7 +45,7 @@ pub(crate) fn refuse_too_many(
     }
     match worst {
         Some((_, near, at)) if triangles > limit as f64 => {
-            Err(PslgError::TooMany { limit, at, near: Some(near) })
+            Err(PslgError::TooMany { limit, at: Some(at), near: Some(near) })
         }
         _ => Ok(()),
     }

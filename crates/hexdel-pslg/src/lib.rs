@@ -71,6 +71,7 @@ mod validate;
 pub use carve::Carved;
 pub use error::{Feature, LooseEnd, Near, PslgError, ValidateError};
 pub use faces::{Cover, Overlap, StrayRing};
+pub use fans::fan_points;
 pub use hexdel_optimize::Effort;
 pub use mesher::{mesh, mesh_sized};
 pub use options::{Extent, Options, SegmentMethod};

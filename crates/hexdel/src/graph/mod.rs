@@ -23,6 +23,8 @@ use hexdel_pslg::{
 };
 use repair::Repaired;
 use result::PslgTriangulation;
+use std::time::Instant;
+use verify::Meshed;
 use warning::Warning;
 use watch::Stopwatch;
 
@@ -54,7 +56,7 @@ impl Domain {
         }
     }
 
-    fn extent(self) -> Extent {
+    pub(super) fn extent(self) -> Extent {
         match self {
             Self::Hexagon => Extent::Hexagon,
             Self::Hull => Extent::Hull,
@@ -348,6 +350,7 @@ impl Mesher {
     fn run_pslg(&self, pslg: &Pslg, monitor: &dyn Monitor) -> Result<PslgTriangulation, Error> {
         self.refuse_for_graphs()?;
         let watch = Stopwatch::new(monitor);
+        let began = Instant::now();
         let mut repaired = Repaired::new(pslg, self.graph.repair)?;
         let graph = &repaired.graph;
         let domain = self.domain_of(graph);
@@ -359,18 +362,30 @@ impl Mesher {
         repaired.seed(validated.pslg());
         let graph = &repaired.graph;
         self.check_graph_size(&graph.points)?;
+        let mut options = self.pslg_options(domain);
+        // Without segments there is nothing that asks for less than points do.
+        let points_alone = validated.pslg().segments.is_empty() && domain == Domain::Hexagon;
+        if points_alone && self.graph.near.is_none() && self.bounds.is_none() {
+            options.near = options.far;
+        }
+        if !options.near.allow_grading() {
+            return Err(Error::NoGrading { asked: options.near });
+        }
+        options.budget = self.budget.map(|budget| budget.saturating_sub(began.elapsed()));
         let mut made =
-            self.mesh_of_graph(&validated, domain, &watch).map_err(|e| repaired.error_as_given(e))?;
+            self.mesh_of_graph(&validated, &options, &watch).map_err(|e| repaired.error_as_given(e))?;
         if boxed.is_some() {
             boxed::forget_box(&mut made, graph);
         }
         verify::list_all(&mut made);
         let segments = verify::segments(&mut made, graph, &validated, domain);
+        let input = Meshed { graph, validated: &validated, domain, size: self.size.as_ref() };
+        let places = verify::places(&mut made, &segments, &input, &options);
         let size_ratio = self.size.as_ref().map(|size| sized::worst(&made.mesh, size).0);
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
         let made = PslgTriangulation::new(made, segments, repaired, domain, watch.seconds());
-        Ok(PslgTriangulation { warnings, size_ratio, ..made })
+        Ok(PslgTriangulation { warnings, size_ratio, far_bounds: options.far, places, ..made })
     }
 
     /// A graph with holes and regions in place of polygons, and what is to be said of them.
@@ -399,18 +414,12 @@ impl Mesher {
     fn mesh_of_graph(
         &self,
         graph: &Validated,
-        domain: Domain,
+        options: &Options,
         monitor: &dyn Monitor,
     ) -> Result<PslgMesh, PslgError> {
-        let mut options = self.pslg_options(domain);
-        // Without segments there is nothing that asks for less than points do.
-        let points_alone = graph.pslg().segments.is_empty() && domain == Domain::Hexagon;
-        if points_alone && self.graph.near.is_none() && self.bounds.is_none() {
-            options.near = options.far;
-        }
         match &self.size {
-            Some(size) => mesh_sized(graph, &options, size, monitor),
-            None => mesh(graph, &options, monitor),
+            Some(size) => mesh_sized(graph, options, size, monitor),
+            None => mesh(graph, options, monitor),
         }
     }
 
