@@ -233,20 +233,13 @@ fn bent(made: &PslgTriangulation) -> usize {
 fn borders_digitised_twice_are_joined() {
     let border = |k: f64| 60.0 * (k * 0.7).sin() + 25.0 * (k * 1.9).cos();
     for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.7, -0.7)] {
-        let first: Vec<[f64; 2]> = (0..=20).map(|k| [border(f64::from(k)), 100.0 * f64::from(k)]).collect();
-        // Every third point is missing, and the sides are divided.
-        let mut second: Vec<[f64; 2]> = Vec::new();
-        for pair in first.windows(2) {
-            let [a, b] = [pair[0], pair[1]];
-            second.extend([a, [0.6 * a[0] + 0.4 * b[0], 0.6 * a[1] + 0.4 * b[1]]]);
-        }
-        second.push(first[20]);
-        let second: Vec<[f64; 2]> = second
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| i % 3 != 2)
-            .map(|(_, p)| [p[0] + dx, p[1] + dy])
-            .collect();
+        // Each has points between the corners that the other has not.
+        let corners: Vec<DVec2> = (0..=20).map(f64::from).map(|k| DVec2::new(border(k), 100.0 * k)).collect();
+        let drawn = |between: f64, shift: DVec2| -> Vec<[f64; 2]> {
+            let row = corners.windows(2).flat_map(|pair| [pair[0], pair[0].lerp(pair[1], between)]);
+            row.chain(corners.last().copied()).map(|p| (p + shift).to_array()).collect()
+        };
+        let (first, second) = (drawn(0.25, DVec2::ZERO), drawn(0.6, DVec2::new(dx, dy)));
         let ring = |border: &[[f64; 2]], x: f64| {
             let corners = border.iter().copied().chain([[x, 2000.0], [x, 0.0], border[0]]);
             corners.map(|[x, y]| format!("{x} {y}")).collect::<Vec<_>>().join(", ")
