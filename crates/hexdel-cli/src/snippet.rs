@@ -172,8 +172,12 @@ mod tests {
     use super::*;
 
     fn drawn(text: &str) -> Option<String> {
+        drawn_of("a.node", text)
+    }
+
+    fn drawn_of(name: &str, text: &str) -> Option<String> {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.node");
+        let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();
         of(&hexdel_io::read_points(&path).unwrap_err())
     }
@@ -187,27 +191,28 @@ mod tests {
         assert!(text.contains("expected") && !text.contains("2 0 1"), "{text}");
     }
 
-    /// The columns that carets are under, from 0 in the line after.
-    fn carets(text: &str, line: &str) -> std::ops::Range<usize> {
-        let drawn = drawn(text).unwrap();
+    /// The columns that carets are under, from 0, in the line after.
+    fn carets(name: &str, text: &str, line: &str) -> std::ops::Range<usize> {
+        let drawn = drawn_of(name, text).unwrap();
         let lines: Vec<&str> = drawn.lines().collect();
-        let at = lines.iter().position(|drawn| drawn.ends_with(line)).unwrap_or_else(|| panic!("{drawn}"));
-        let start = lines[at].len() - line.len();
-        let mark = |c: char| matches!(c, '^' | '|');
-        let below = lines[at + 1];
-        let (first, last) = (below.find(mark), below.rfind(mark));
-        first.map_or(0..0, |first| first - start..last.unwrap_or(first) + 1 - start)
+        let at = lines.iter().rposition(|drawn| drawn.ends_with(line)).unwrap_or_else(|| panic!("{drawn}"));
+        let start = lines[at].chars().count() - line.len();
+        let marked: Vec<usize> =
+            (0..).zip(lines[at + 1].chars()).filter(|(_, c)| "^|─┬".contains(*c)).map(|m| m.0).collect();
+        marked[0] - start..marked[marked.len() - 1] + 1 - start
     }
 
     #[test]
     fn carets_are_under_the_token_at_fault() {
-        let head = "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n";
-        // The index, not the marker of the same number; the number of the row; the second
-        // of two that are the same.
-        assert_eq!(carets(&format!("{head}1 1\n1 1 9 9\n"), "1 1 9 9"), 0..0);
-        assert_eq!(carets("2 2\n1 0 0\n3 3 3\n", "3 3 3"), 0..1);
-        assert_eq!(carets("1 2 2 0\n0 7 x7 7 x\n", "0 7 x7 7 x"), 4..6);
-        assert_eq!(carets("1 2 1 0\n  0 1 1 1x 1\n", "  0 1 1 1x 1"), 8..10);
+        let head = "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n1 1\n";
+        // The index, not the marker of the same number.
+        assert_eq!(carets("a.poly", &format!("{head}1 1 9 9\n0\n"), "1 1 9 9"), 4..5);
+        // The number of the row; a field, not a part of another; the end of a row.
+        assert_eq!(carets("a.node", "2 2\n1 0 0\n3 3 3\n", "3 3 3"), 0..1);
+        assert_eq!(carets("a.node", "1 2 2 0\n0 7 x7 7 x\n", "0 7 x7 7 x"), 4..6);
+        assert_eq!(carets("a.node", "1 2 1 0\n  0 1 1 1x 1\n", "  0 1 1 1x 1"), 8..10);
+        assert_eq!(carets("a.node", "1 2\n0 1\n", "0 1"), 3..4);
+        assert_eq!(carets("a.csv", "x,y\n\"1\",\"b\"\n", "\"1\",\"b\""), 5..6);
     }
 
     #[test]

@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn slips_are_told_from_other_names() {
         assert!(is_slip("min-angel", "min-angle") && is_slip("out", "output") && is_slip("repiar", "repair"));
-        assert!(!is_slip("area", "repair") && !is_slip("to", "histogram") && !is_slip("angle", "range"));
+        assert!(!is_slip("area", "repair") && !is_slip("to", "histogram") && !is_slip("angle", "zoom"));
     }
 
     #[test]

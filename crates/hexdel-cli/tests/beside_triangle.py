@@ -89,8 +89,8 @@ if attributes:
             assert np.allclose(np.column_stack([np.ones(len(vertices)), vertices]) @ fit, values, atol=1e-9), "linear"
     else:
         assert own.min() >= own[:n].min() and own.max() <= own[:n].max(), "range of attributes"
-# Markers of input points that are in use.
-used = np.intersect1d(np.unique(corners), np.arange(n))
+# Markers of input points that are in use; of two at a place either may be.
+used = np.intersect1d(np.intersect1d(corners, wanted), np.arange(n))
 ours_marked, theirs_marked = nodes[used, -1].astype(int), theirs["vertex_markers"].ravel()[used]
 assert np.array_equal(ours_marked, theirs_marked), f"markers {ours_marked} {theirs_marked}"
 print(f"{len(nodes)} and {len(theirs['vertices'])} points, {n} given, {len(crossings)} crossings, {attributes} attributes")

@@ -36,10 +36,7 @@ pub(crate) fn read_table(
     let Some(mut table) = Table::begin(&mut lines, asked, &mut points, &mut faults)? else {
         return Ok((Pslg::default(), None));
     };
-    loop {
-        let Some(row) = faults.note(lines.next_row())?.flatten() else {
-            break;
-        };
+    while let Some(row) = faults.note(lines.next_row())?.flatten() {
         if points.len() >= MAX_POINTS {
             return Err(ReadError::TooMany {
                 file: row.file.to_owned(),

@@ -1,7 +1,5 @@
 //! Sessions keep the options they were made with, or refuse them by name.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
-
 use hexdel::generate::{Kind, generate};
 use hexdel::{
     AngleBounds, AnySession, DVec2, Domain, Effort, Error, Mesher, Method, Pslg, Session, SessionError, Size,

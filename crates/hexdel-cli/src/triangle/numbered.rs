@@ -74,13 +74,18 @@ impl Numbered {
 fn markers_of_segments(made: &PslgTriangulation) -> Vec<Option<i32>> {
     let mut first: Vec<Option<(u32, i32)>> = vec![None; made.mesh.vertices.len()];
     for edge in &made.edges {
-        let Some(segment) = edge.segment.filter(|_| edge.marker != 0) else { continue };
+        let Some(segment) = edge.segment else { continue };
+        // That of an edge is 1 on the boundary where the segment has none.
+        let marker = made.graph.segment_markers.get(segment as usize).copied().unwrap_or(0);
+        if marker == 0 {
+            continue;
+        }
         let sources = made.repairs.as_ref().and_then(|report| report.sources.get(segment as usize));
         let given = sources.and_then(|sources| sources.iter().min()).copied().unwrap_or(segment);
         for end in edge.ends {
             let found = &mut first[end.index()];
             if found.is_none_or(|(known, _)| given < known) {
-                *found = Some((given, edge.marker));
+                *found = Some((given, marker));
             }
         }
     }

@@ -53,8 +53,8 @@ fn loose_ends_are_named_where_nothing_is_enclosed() {
     bench.run(&format!("mesh {input} -q -o m.ele --domain hull")).fine();
     bench.run(&format!("triangle -pQP {input}")).refused("segments end loose");
     // Many of them are counted.
-    let spokes: String = (0..9).map(|i| format!("{} 1 {}\n", i + 1, i)).collect();
-    let segments: String = (0..9).map(|i| format!("{i} 0 {}\n", i + 1)).collect();
+    let spokes = (0..9).map(|i| format!("{} 1 {}\n", i + 1, i)).collect::<Vec<_>>().concat();
+    let segments = (0..9).map(|i| format!("{i} 0 {}\n", i + 1)).collect::<Vec<_>>().concat();
     bench.file("fan.poly", format!("10 2\n0 0 0\n{spokes}9 0\n{segments}0\n"));
     bench.run("mesh fan.poly -o m.ele").refused("point 5 at (1, 4) and 4 more");
 }
@@ -84,7 +84,7 @@ fn segments_without_length_and_twice_are_dropped_with_a_warning() {
 #[test]
 fn faults_of_a_kind_are_told_together() {
     let bench = Bench::new();
-    let rows: String = (0..8).map(|i| format!("{i}.5,x{i}\n")).collect();
+    let rows = (0..8).map(|i| format!("{i}.5,x{i}\n")).collect::<Vec<_>>().concat();
     bench.file("t.csv", format!("x,y\n0,0\n{rows}"));
     let run = bench.run("mesh t.csv -o m.ele");
     run.refused("t.csv:3: expected the y coordinate, found \"x0\"\nt.csv:4: ");
