@@ -213,7 +213,7 @@ fn seeded(content: Content, output: &str, input: &Path) -> Result<Content, Failu
         {
             let file = name(input, "input");
             let prepared = Mesher::new().prepared_pslg(&points);
-            let failure = |source| Failure::Mesh { file, source: Box::new(source) };
+            let failure = |source| Failure::Mesh { file, source: Box::new(source), more: String::new() };
             Ok(Content::Points(prepared.map_err(failure)?))
         }
         content => Ok(content),
