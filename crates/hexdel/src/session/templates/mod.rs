@@ -24,7 +24,7 @@ use crate::placement::{CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
 use crate::sized::check_count;
 use cells::{Replaced, Serials};
-use grown::{Grown, Step, Stuck, certified};
+use grown::{Grown, Step, Stuck};
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, closest_pair};
 use hexdel_grid::{Address, Grid, Lattice};
 use hexdel_refine::RefineError;
@@ -510,13 +510,14 @@ impl TemplateSession {
         })
     }
 
-    /// The certificate of the whole mesh, made from scratch.
+    /// The certificate of the whole mesh, made from scratch; the shortest edge promised is as
+    /// that of [`Session::certificate`](crate::Session::certificate).
     ///
     /// # Complexity
     ///
     /// Linear in the mesh.
     pub fn certificate(&self) -> Certificate {
-        certified(&self.grown.mesh().0, &self.all_points().1)
+        self.grown.certificate(&self.all_points().1)
     }
 }
 
