@@ -52,8 +52,11 @@ pub mod mesher;
 pub mod picture;
 mod placement;
 pub mod session;
+mod shortest;
 pub mod size;
 mod sized;
+#[cfg(feature = "spade")]
+pub mod spade;
 pub mod triangulation;
 
 pub use hexdel_classify as classify;
