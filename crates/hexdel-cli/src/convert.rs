@@ -1,12 +1,12 @@
 //! `hexdel convert`: a mesh or points from one format to another.
 
 use crate::exit::{Failure, Outcome, Verdict, warn};
-use crate::input::{is_stream, names};
+use crate::input::{is_stream, names, warn_of};
 use crate::outputs::Outputs;
 use hexdel::geom::Pslg;
 use hexdel_io::{
-    MeshData, MeshFormat, PointFormat, ReadError, WriteError, holds_mesh, read_mesh_data, read_mesh_from,
-    read_points, read_points_from, write_mesh, write_mesh_to, write_points, write_points_to,
+    Columns, MeshData, MeshFormat, PointFormat, PointReader, ReadError, WriteError, holds_mesh,
+    read_mesh_data, read_mesh_from, write_mesh, write_mesh_to, write_points, write_points_to,
 };
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -37,6 +37,9 @@ pub(crate) struct Args {
     /// Format of INPUT [default: by extension]
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     input_format: Option<String>,
+    /// Columns of x and y in a table, by name or number
+    #[arg(long, value_name = "X,Y")]
+    columns: Option<Columns>,
 }
 
 /// What is converted.
@@ -123,7 +126,7 @@ impl Args {
                 if holds_mesh(&bytes, mesh) {
                     Ok(Content::Mesh(read_mesh_from(&bytes[..], mesh, &name)?))
                 } else {
-                    Ok(Content::Points(read_points_from(&bytes[..], points, &name)?))
+                    Ok(Content::Points(self.reader().read_from(&bytes[..], points, &name)?.pslg))
                 }
             }
             // A graph in .poly is no mesh, though the mesh formats have one.
@@ -147,11 +150,17 @@ impl Args {
 
     fn points(&self, format: PointFormat) -> Result<Content, Failure> {
         let by_extension = PointFormat::from_path(&self.input) == Some(format);
-        Ok(Content::Points(if by_extension && !is_stream(&self.input) {
-            read_points(&self.input)?
+        let file = if by_extension && !is_stream(&self.input) {
+            self.reader().read(&self.input)?
         } else {
-            read_points_from(self.open()?, format, &name(&self.input, "input"))?
-        }))
+            self.reader().read_from(self.open()?, format, &name(&self.input, "input"))?
+        };
+        warn_of(&file);
+        Ok(Content::Points(file.pslg))
+    }
+
+    fn reader(&self) -> PointReader {
+        PointReader::new().columns(self.columns.clone())
     }
 
     fn open(&self) -> Result<Box<dyn BufRead>, Failure> {

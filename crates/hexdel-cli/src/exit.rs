@@ -1,6 +1,6 @@
 //! How a command ends: errors, exit codes, and text that a closed pipe may cut.
 
-use crate::snippet;
+use crate::{remedy, snippet};
 use hexdel::geom::BoundsError;
 use hexdel_io::{ReadError, WriteError};
 use miette::Diagnostic;
@@ -28,9 +28,9 @@ pub(crate) enum Failure {
     Read(#[from] ReadError),
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// An error that is about what is in a file.
-    #[error("{file}: {source}")]
-    Mesh { file: String, source: Box<hexdel::Error> },
+    /// An error that is about what is in a file, with others of the kind, one a line.
+    #[error("{file}: {source}{more}")]
+    Mesh { file: String, source: Box<hexdel::Error>, more: String },
     #[error("{file}: {source}")]
     #[diagnostic(help("`hexdel check` tells all that is wrong with a mesh"))]
     Voronoi { file: String, source: hexdel::geom::VoronoiError },
@@ -101,8 +101,8 @@ pub(crate) fn finish(outcome: Outcome) -> ExitCode {
             {
                 let _ = write!(io::stderr(), "{snippet}");
             }
-            if let Some(help) = failure.help() {
-                complain("help", &help.to_string());
+            if let Some(help) = remedy::of(&failure).or_else(|| failure.help().map(|help| help.to_string())) {
+                complain("help", &help);
             }
             ExitCode::from(failure.code())
         }

@@ -16,7 +16,7 @@ const MAX_POINTS: u64 = 100_000_000;
 
 /// Make points to test with
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(mut_arg("columns", |arg| arg.hide(true)), after_help = "\
     The same kind, number and seed give the same file everywhere.\n\n\
     Example:\n  hexdel generate spiral 1000 --seed 7 -o spiral.node")]
 pub(crate) struct Args {

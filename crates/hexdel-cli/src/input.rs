@@ -1,9 +1,9 @@
 //! Reading files, or standard input where a file is called `-`.
 
-use crate::exit::Failure;
+use crate::exit::{Failure, warn};
 use clap::builder::PossibleValuesParser;
-use hexdel::{Pslg, TriMesh};
-use hexdel_io::{MeshFormat, PointFormat};
+use hexdel::TriMesh;
+use hexdel_io::{Columns, MeshFormat, PointFile, PointFormat, PointReader};
 use std::io;
 use std::path::Path;
 
@@ -19,6 +19,9 @@ pub(crate) struct Formats {
     /// Format of `-` as input, if that of output is another
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     input_format: Option<String>,
+    /// Columns of x and y in a table, by name or number
+    #[arg(long, value_name = "X,Y")]
+    columns: Option<Columns>,
 }
 
 /// The names of all formats.
@@ -60,13 +63,26 @@ pub(crate) fn is_stream(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Points, and segments, holes and regions if there are any.
-pub(crate) fn read_graph(path: &Path, formats: &Formats) -> Result<Pslg, Failure> {
-    if !is_stream(path) {
-        return Ok(hexdel_io::read_points(path)?);
+/// Points, and segments, holes and regions if there are any. What was wrong with the file
+/// and read all the same is a warning.
+pub(crate) fn read_graph(path: &Path, formats: &Formats) -> Result<PointFile, Failure> {
+    let reader = PointReader::new().columns(formats.columns.clone());
+    let file = if is_stream(path) {
+        let format = named(formats.of_input(), PointFormat::from_name, "points", "input")?;
+        reader.read_from(io::stdin().lock(), format, STDIN)?
+    } else {
+        reader.read(path)?
+    };
+    warn_of(&file);
+    if formats.columns.is_some() && file.columns.is_none() && !file.pslg.points.is_empty() {
+        warn(&format!("{}: --columns is for tables, and this is none", path.display()));
     }
-    let format = named(formats.of_input(), PointFormat::from_name, "points", "input")?;
-    Ok(hexdel_io::read_points_from(io::stdin().lock(), format, STDIN)?)
+    Ok(file)
+}
+
+/// Warns of what was wrong with a file and read all the same.
+pub(crate) fn warn_of(file: &PointFile) {
+    file.warnings.iter().for_each(|warning| warn(&warning.to_string()));
 }
 
 /// A mesh.

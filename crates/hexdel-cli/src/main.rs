@@ -5,7 +5,8 @@
 //! [`dual`], [`generate`], [`session`], [`manual`] for completions and manual pages), and what they
 //! share: files and standard input ([`input`]), which files are written and when
 //! ([`outputs`]), the bar on a terminal ([`progress`]), errors and exit codes ([`exit`]),
-//! the place in a file that an error is about ([`snippet`]). All meshing is left to the
+//! the place in a file that an error is about ([`snippet`]), the option that cures it ([`remedy`]),
+//! options that are called otherwise ([`usage`]). All meshing is left to the
 //! library, all formats to `hexdel-io`.
 
 mod check;
@@ -19,10 +20,12 @@ mod mesh;
 mod outputs;
 mod plot;
 mod progress;
+mod remedy;
 mod session;
 mod sizing;
 mod snippet;
 mod triangle;
+mod usage;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
@@ -58,7 +61,8 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let cli = Cli::try_parse().unwrap_or_else(|error| usage::improved(error).exit());
+    let outcome = match cli.command {
         Command::Mesh(args) => mesh::run(&args),
         Command::Triangle(args) => triangle::run(&args),
         Command::Check(args) => check::run(&args),

@@ -6,7 +6,7 @@
 //! the system refusing a name then could leave some without the others.
 
 use crate::exit::{Failure, print};
-use hexdel_io::{DualFormat, MeshFormat, PointFormat, WriteError};
+use hexdel_io::{DualFormat, MeshFormat, PointFormat, WriteError, points_beside};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -36,11 +36,11 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
-    /// Keeps the input from being replaced, with the `.node` that a `.poly` may
-    /// have its points in.
+    /// Keeps the input from being replaced, with the `.node` that a `.poly` has its
+    /// points in, if it has.
     pub(crate) fn protect_input(&mut self, input: &Path) {
         self.protected.push(settled(input));
-        if PointFormat::from_path(input) == Some(PointFormat::Poly) {
+        if PointFormat::from_path(input) == Some(PointFormat::Poly) && points_beside(input) {
             self.protected.extend(["node", "NODE"].map(|e| settled(&input.with_extension(e))));
         }
     }

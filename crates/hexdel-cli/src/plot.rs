@@ -1,15 +1,16 @@
 //! `hexdel plot`: pictures of meshes, and the options that all pictures have.
 
 use crate::exit::{Failure, Outcome, Verdict};
+use crate::input::{Formats, read_graph};
 use crate::outputs::Outputs;
 use clap::ValueEnum;
 use hexdel::{AngleBounds, DVec2, TriMesh};
-use hexdel_io::{ColourBy, MeshFormat, Picture, WriteError, read_mesh_data, read_points, write_mesh};
+use hexdel_io::{ColourBy, MeshFormat, Picture, WriteError, read_mesh_data, write_mesh};
 use std::path::PathBuf;
 
 /// Draw a mesh, coloured by its angles or regions
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(mut_arg("format", |arg| arg.hide(true)), mut_arg("input_format", |arg| arg.hide(true)), after_help = "\
     The bounds are where colour scales end and what the histogram marks; angles\n\
     beyond them are red. Levels and classes are those of the hexagons behind a\n\
     mesh, which files do not tell: `hexdel mesh` has these options too, --size as\n\
@@ -34,6 +35,8 @@ pub(crate) struct Args {
     /// File of points to be drawn where they are vertices
     #[arg(long)]
     input: Option<PathBuf>,
+    #[command(flatten)]
+    formats: Formats,
 }
 
 /// How pictures look.
@@ -109,7 +112,8 @@ pub(crate) fn run(args: &Args) -> Outcome {
         return Err(Failure::NoHexagons { of: format!("{}: a mesh file", args.mesh.display()) });
     }
     let bounds = AngleBounds::new(args.min_angle, args.max_angle)?;
-    let points = args.input.as_deref().map(read_points).transpose()?.map(|graph| graph.points);
+    let read = |path| read_graph(path, &args.formats).map(|file| file.pslg.points);
+    let points = args.input.as_deref().map(read).transpose()?;
     let mut data = read_mesh_data(&args.mesh)?;
     if let Some(points) = points {
         data.input_indices = Some(input_indices(&data.mesh, &points));

@@ -20,9 +20,13 @@ const WIDEST: u64 = 400;
 
 /// Draws the line that an error is about, if there is one.
 pub(crate) fn of(error: &ReadError) -> Option<String> {
+    let error = match error {
+        ReadError::Several { errors, .. } => errors.first()?,
+        error => error,
+    };
     let (file, line, label, found) = place(error)?;
     let excerpt = Excerpt::read(&file, line)?;
-    let span = excerpt.span(found.as_deref());
+    let span = excerpt.span(error.column(), found.as_deref());
     let pointed = Pointed { excerpt, label: LabeledSpan::new_with_span(Some(label), span) };
     let terminal = io::stderr().is_terminal();
     let theme = if terminal { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
@@ -89,15 +93,40 @@ impl Excerpt {
         excerpt.text.chars().all(|c| c == '\n' || c == '\t' || !c.is_control()).then_some(excerpt)
     }
 
-    /// The text at fault in the last line, or all of the line. Fields are looked
-    /// for from behind: the number of a row is seldom what is wrong with it.
-    fn span(&self, found: Option<&str>) -> SourceSpan {
+    /// The text at fault in the last line, or all of the line. Where its column is not known,
+    /// fields are looked for from behind: the number of a row is seldom what is wrong with it.
+    fn span(&self, column: Option<u64>, found: Option<&str>) -> SourceSpan {
         let line = self.text[self.at..].trim_end();
         let indent = line.len() - line.trim_start().len();
-        let field = found.filter(|f| !f.is_empty()).and_then(|f| Some((line.rfind(f)?, f.len())));
+        let found = found.filter(|f| !f.is_empty());
+        if let Some(offset) = column.map(|column| column as usize - 1) {
+            let offset = self.skipped(offset).min(line.len());
+            let found = found.map(|f| f.strip_suffix("..").unwrap_or(f));
+            let length = found
+                .filter(|f| line.get(offset..).is_some_and(|rest| rest.starts_with(f)))
+                .map_or(0, str::len);
+            return (self.at + offset, length).into();
+        }
+        let field = found.and_then(|f| Some((whole_word(line, f)?, f.len())));
         let (offset, length) = field.unwrap_or((indent, line.len() - indent));
         (self.at + offset, length).into()
     }
+
+    /// An offset in the line as it is here: readers do not count a byte order mark.
+    fn skipped(&self, offset: usize) -> usize {
+        const MARK: char = '\u{feff}';
+        offset + if self.text[self.at..].starts_with(MARK) { MARK.len_utf8() } else { 0 }
+    }
+}
+
+/// Where a word last stands in a line, by itself and not as a part of another.
+fn whole_word(line: &str, word: &str) -> Option<usize> {
+    let of_word = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '+' | '_');
+    let alone = |&(at, _): &(usize, &str)| {
+        let (before, after) = (&line[..at], &line[at + word.len()..]);
+        !before.ends_with(of_word) && !after.starts_with(of_word)
+    };
+    line.rmatch_indices(word).find(alone).map(|(at, _)| at)
 }
 
 impl SourceCode for Excerpt {
@@ -143,8 +172,12 @@ mod tests {
     use super::*;
 
     fn drawn(text: &str) -> Option<String> {
+        drawn_of("a.node", text)
+    }
+
+    fn drawn_of(name: &str, text: &str) -> Option<String> {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.node");
+        let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();
         of(&hexdel_io::read_points(&path).unwrap_err())
     }
@@ -156,6 +189,30 @@ mod tests {
         let (number, line) = (text.find("3 |").or(text.find("3 │")), text.find("1 1 x7"));
         assert!(number.is_some() && number < line, "{text}");
         assert!(text.contains("expected") && !text.contains("2 0 1"), "{text}");
+    }
+
+    /// The columns that carets are under, from 0, in the line after.
+    fn carets(name: &str, text: &str, line: &str) -> std::ops::Range<usize> {
+        let drawn = drawn_of(name, text).unwrap();
+        let lines: Vec<&str> = drawn.lines().collect();
+        let at = lines.iter().rposition(|drawn| drawn.ends_with(line)).unwrap_or_else(|| panic!("{drawn}"));
+        let start = lines[at].chars().count() - line.len();
+        let marked: Vec<usize> =
+            (0..).zip(lines[at + 1].chars()).filter(|(_, c)| "^|─┬".contains(*c)).map(|m| m.0).collect();
+        marked[0] - start..marked[marked.len() - 1] + 1 - start
+    }
+
+    #[test]
+    fn carets_are_under_the_token_at_fault() {
+        let head = "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n1 1\n";
+        // The index, not the marker of the same number.
+        assert_eq!(carets("a.poly", &format!("{head}1 1 9 9\n0\n"), "1 1 9 9"), 4..5);
+        // The number of the row; a field, not a part of another; the end of a row.
+        assert_eq!(carets("a.node", "2 2\n1 0 0\n3 3 3\n", "3 3 3"), 0..1);
+        assert_eq!(carets("a.node", "1 2 2 0\n0 7 x7 7 x\n", "0 7 x7 7 x"), 4..6);
+        assert_eq!(carets("a.node", "1 2 1 0\n  0 1 1 1x 1\n", "  0 1 1 1x 1"), 8..10);
+        assert_eq!(carets("a.node", "1 2\n0 1\n", "0 1"), 3..4);
+        assert_eq!(carets("a.csv", "x,y\n\"1\",\"b\"\n", "\"1\",\"b\""), 5..6);
     }
 
     #[test]

@@ -63,7 +63,7 @@ impl MeshData {
             let p = vertices[index];
             let found = if p.x.is_finite() { p.y } else { p.x }.to_string();
             let (file, index) = (file.to_owned(), index as u64);
-            return Err(ReadError::NonFinite { file, line: 0, item: "point", index, found });
+            return Err(ReadError::NonFinite { file, line: 0, column: 0, item: "point", index, found });
         }
         let ends = self.marked_edges.iter().flatten().flat_map(|edge| &edge.ends);
         if let Some(bad) =
@@ -72,6 +72,7 @@ impl MeshData {
             return Err(ReadError::IndexOutOfRange {
                 file: file.to_owned(),
                 line: 0,
+                column: 0,
                 index: bad.index() as i64,
                 first: 0,
                 points: vertices.len() as u64,

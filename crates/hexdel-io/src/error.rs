@@ -6,6 +6,9 @@ use std::path::Path;
 use hexdel_geom::{DVec2, PslgLayoutError};
 use thiserror::Error;
 
+/// Faults of a kind that are counted before reading is given up.
+pub(crate) const MOST_FAULTS: u64 = 1000;
+
 /// Why a file was not read.
 ///
 /// Lines are counted from 1. Whatever is quoted from the file is cut to
@@ -60,6 +63,8 @@ pub enum ReadError {
         file: String,
         /// The line.
         line: u64,
+        /// Where in the line, in bytes from 1; 0 if it is not known.
+        column: u64,
         /// What should be there.
         expected: &'static str,
         /// What is there: the field in quotation marks, or "end of line".
@@ -72,6 +77,8 @@ pub enum ReadError {
         file: String,
         /// The line; 0 if the format does not tell.
         line: u64,
+        /// Where in the line, in bytes from 1; 0 if it is not known.
+        column: u64,
         /// "point", "hole" or "region".
         item: &'static str,
         /// Its index, counted as the file does (from 0 in tables).
@@ -110,6 +117,8 @@ pub enum ReadError {
         file: String,
         /// The first such line.
         line: u64,
+        /// Where in the line, in bytes from 1; 0 if it is not known.
+        column: u64,
         /// The section that should have been the last.
         section: &'static str,
         /// The first field of the line, in quotation marks.
@@ -122,6 +131,8 @@ pub enum ReadError {
         file: String,
         /// The line.
         line: u64,
+        /// Where in the line, in bytes from 1; 0 if it is not known.
+        column: u64,
         /// The row number that was due.
         expected: u64,
         /// The row number that is there.
@@ -134,6 +145,8 @@ pub enum ReadError {
         file: String,
         /// The line; 0 if the format does not tell.
         line: u64,
+        /// Where in the line, in bytes from 1; 0 if it is not known.
+        column: u64,
         /// The index as written.
         index: i64,
         /// The index of the first point, 0 or 1.
@@ -245,6 +258,40 @@ pub enum ReadError {
         /// What the parser says.
         message: String,
     },
+    /// Nothing tells which columns of a table are x and y.
+    #[error("{file}:{line}: {fault}: {header}")]
+    Columns {
+        /// The file.
+        file: String,
+        /// The line of the header, or the first row if there is none.
+        line: u64,
+        /// What does not tell.
+        fault: &'static str,
+        /// The header, or the first row, cut to a readable length.
+        header: String,
+        /// Columns with numbers that are likely to be meant, by name or number.
+        likely: Option<[String; 2]>,
+    },
+    /// A column that was asked for is not there.
+    #[error("{file}:{line}: no column {column}, there are {header}")]
+    NoColumn {
+        /// The file.
+        file: String,
+        /// The line of the header, or the first row if there is none.
+        line: u64,
+        /// The name or number asked for.
+        column: String,
+        /// The header, or how many columns there are.
+        header: String,
+    },
+    /// Several faults of a kind.
+    #[error("{}", listed(errors, *count))]
+    Several {
+        /// The first five.
+        errors: Vec<ReadError>,
+        /// How many there are; counting ends at a thousand.
+        count: u64,
+    },
     /// A raster is not as its format wants it.
     #[error("{file}:{line}: {message}")]
     Raster {
@@ -283,9 +330,28 @@ impl ReadError {
             | Self::Json { line, .. }
             | Self::Xml { line, .. }
             | Self::Ron { line, .. }
+            | Self::Columns { line, .. }
+            | Self::NoColumn { line, .. }
             | Self::Raster { line, .. } => *line,
+            Self::Several { errors, .. } => return errors.first().and_then(Self::line),
         };
         (line > 0).then_some(line)
+    }
+
+    /// Where in the line the fault is, in bytes from 1, if it is known.
+    pub fn column(&self) -> Option<u64> {
+        let column = match self {
+            Self::Malformed { column, .. }
+            | Self::NonFinite { column, .. }
+            | Self::TrailingRow { column, .. }
+            | Self::NonConsecutive { column, .. }
+            | Self::IndexOutOfRange { column, .. }
+            | Self::Json { column, .. }
+            | Self::Ron { column, .. } => *column,
+            Self::Several { errors, .. } => return errors.first().and_then(Self::column),
+            _ => 0,
+        };
+        (column > 0).then_some(column)
     }
 
     pub(crate) fn open(path: &Path, source: io::Error) -> Self {
@@ -296,6 +362,17 @@ impl ReadError {
             Self::Io { file, source }
         }
     }
+}
+
+/// The first faults of a kind, one a line, and how many more there are.
+fn listed(errors: &[ReadError], count: u64) -> String {
+    let mut lines: Vec<String> = errors.iter().map(ToString::to_string).collect();
+    match count.saturating_sub(errors.len() as u64) {
+        0 => {}
+        more if count >= MOST_FAULTS => lines.push(format!("and {more} more of the kind, or yet more")),
+        more => lines.push(format!("and {more} more of the kind")),
+    }
+    lines.join("\n")
 }
 
 /// File and, if it is known, line.

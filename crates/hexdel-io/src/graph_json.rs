@@ -97,7 +97,7 @@ fn check_graph(pslg: Pslg, file: &str) -> Result<Pslg, ReadError> {
             let p = points[index];
             let found = if p.x.is_finite() { p.y } else { p.x }.to_string();
             let (file, index) = (file.to_owned(), index as u64);
-            return Err(ReadError::NonFinite { file, line: 0, item, index, found });
+            return Err(ReadError::NonFinite { file, line: 0, column: 0, item, index, found });
         }
     }
     Ok(pslg)
@@ -138,6 +138,7 @@ pub(crate) fn read_cgshop(source: &Source<'_>) -> Result<Pslg, ReadError> {
             _ => Err(ReadError::IndexOutOfRange {
                 file: source.file.to_owned(),
                 line: 0,
+                column: 0,
                 index,
                 first: 0,
                 points: count as u64,

@@ -27,7 +27,7 @@
 //! | `.svg` `.png` | pictures, [`Picture`] | | yes |
 //! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh, by [`write_dual`] | | yes |
 //!
-//! Points go through [`read_points`] and [`write_points`], meshes through
+//! Points go through [`read_points`], or a [`PointReader`] that says more, and [`write_points`], meshes through
 //! [`read_mesh_data`] and [`write_mesh`], streams through [`read_points_from`],
 //! [`write_points_to`], [`read_mesh_from`] and [`write_mesh_to`] with the format named.
 //!
@@ -45,6 +45,7 @@ mod asc;
 mod atomic;
 mod canvas;
 mod colour;
+mod columns;
 mod data;
 mod dual;
 mod error;
@@ -61,6 +62,7 @@ mod json;
 mod legend;
 mod lines;
 mod medit;
+mod mend;
 mod mesh_json;
 mod mesh_ron;
 mod msh;
@@ -70,6 +72,7 @@ mod off;
 mod picture;
 #[cfg(feature = "png")]
 mod png;
+mod point_file;
 mod read;
 mod scene;
 mod second_order;
@@ -93,14 +96,15 @@ mod write;
 
 pub use asc::{Raster, parse_raster, read_raster};
 pub use colour::Rgb;
+pub use columns::{Column, Columns, TakenColumn, TakenColumns};
 pub use data::MeshData;
 pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
+pub use mend::ReadWarning;
 pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
-pub use read::{
-    holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair, read_points, read_points_from,
-};
+pub use point_file::{PointFile, PointReader, points_beside, read_points, read_points_from};
+pub use read::{holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair};
 pub use sizes::{parse_sizes, read_sizes};
 pub use view::{MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_to, write_points, write_points_to};

@@ -4,7 +4,6 @@
 //! file holds. What the fields mean is left to the formats.
 
 use std::io::{BufRead, Read};
-use std::str::SplitAsciiWhitespace;
 
 use hexdel_geom::DVec2;
 
@@ -74,13 +73,15 @@ impl<R: BufRead> Lines<R> {
     }
 
     fn row(&self) -> Result<Row<'_>, ReadError> {
-        let mut text = self.text()?;
+        let whole = self.text()?;
+        let mut text = whole;
         if self.comments == Comments::Anywhere
             && let Some(at) = text.find('#')
         {
             text = &text[..at];
         }
-        Ok(Row { file: &self.file, line: self.number, text: text.trim_ascii() })
+        let indent = whole.len() - whole.trim_ascii_start().len();
+        Ok(Row { file: &self.file, line: self.number, text: text.trim_ascii(), indent })
     }
 
     fn text(&self) -> Result<&str, ReadError> {
@@ -118,12 +119,30 @@ pub(crate) struct Row<'a> {
     pub(crate) file: &'a str,
     pub(crate) line: u64,
     pub(crate) text: &'a str,
+    /// Where the text starts in the line, in bytes.
+    indent: usize,
 }
 
 impl<'a> Row<'a> {
     /// The fields between white space.
     pub(crate) fn fields(self) -> Fields<'a> {
-        Fields { row: self, rest: self.text.split_ascii_whitespace() }
+        Fields { row: self, rest: self.text, commas: false }
+    }
+
+    /// The fields between white space and commas.
+    pub(crate) fn fields_with_commas(self) -> Fields<'a> {
+        Fields { row: self, rest: self.text, commas: true }
+    }
+
+    /// Where a part of this row starts in the line, in bytes from 1, or the end of the
+    /// row if there is none; 0 for what is no part of it.
+    pub(crate) fn column_of(&self, part: Option<&str>) -> u64 {
+        let at = match part {
+            None => Some(self.text.len()),
+            Some(part) => part.as_ptr().addr().checked_sub(self.text.as_ptr().addr()),
+        };
+        let within = at.filter(|at| at + part.map_or(0, str::len) <= self.text.len());
+        within.map_or(0, |at| (self.indent + at + 1) as u64)
     }
 
     /// The number in `field`.
@@ -139,14 +158,27 @@ impl<'a> Row<'a> {
         item: &'static str,
         index: u64,
     ) -> Result<DVec2, ReadError> {
-        let x = self.number(fields[0], "the x coordinate")?;
-        let y = self.number(fields[1], "the y coordinate")?;
-        let bad = [x, y].iter().position(|c| !c.is_finite());
-        match bad {
+        self.position_by(fields, item, index, |text| text.parse().ok())
+    }
+
+    /// The same with numbers of another kind.
+    pub(crate) fn position_by(
+        &self,
+        fields: [Option<&str>; 2],
+        item: &'static str,
+        index: u64,
+        parse: impl Fn(&str) -> Option<f64>,
+    ) -> Result<DVec2, ReadError> {
+        let number = |axis: usize, expected| {
+            fields[axis].and_then(&parse).ok_or_else(|| self.malformed(expected, fields[axis]))
+        };
+        let (x, y) = (number(0, "the x coordinate")?, number(1, "the y coordinate")?);
+        match [x, y].iter().position(|c| !c.is_finite()) {
             None => Ok(DVec2::new(x, y)),
             Some(axis) => Err(ReadError::NonFinite {
                 file: self.file.to_owned(),
                 line: self.line,
+                column: self.column_of(fields[axis]),
                 item,
                 index,
                 found: clip(fields[axis].unwrap_or_default()),
@@ -158,6 +190,7 @@ impl<'a> Row<'a> {
         ReadError::Malformed {
             file: self.file.to_owned(),
             line: self.line,
+            column: self.column_of(found),
             expected,
             found: found.map_or_else(|| "end of line".to_owned(), quote),
         }
@@ -165,20 +198,28 @@ impl<'a> Row<'a> {
 }
 
 /// The fields of a line that are still to be read.
+#[derive(Clone, Copy)]
 pub(crate) struct Fields<'a> {
     pub(crate) row: Row<'a>,
-    rest: SplitAsciiWhitespace<'a>,
+    rest: &'a str,
+    /// Whether commas separate as well as white space.
+    commas: bool,
 }
 
 impl<'a> Fields<'a> {
     /// The next field as it stands, if there is one.
     pub(crate) fn text(&mut self) -> Option<&'a str> {
-        self.rest.next()
+        let separates = |c: char| c.is_ascii_whitespace() || self.commas && c == ',';
+        let rest = self.rest.trim_start_matches(separates);
+        let (field, rest) = rest.split_at(rest.find(separates).unwrap_or(rest.len()));
+        self.rest = rest;
+        (!field.is_empty()).then_some(field)
     }
 
     /// The next field, which stays to be read.
     pub(crate) fn peek(&self) -> Option<&'a str> {
-        self.rest.clone().next()
+        let mut copy = *self;
+        copy.text()
     }
 
     /// The next field as an integer.

@@ -170,6 +170,7 @@ impl Parts {
             return Err(ReadError::IndexOutOfRange {
                 file: tokens.file().to_owned(),
                 line,
+                column: 0,
                 index: index as i64,
                 first: 1,
                 points: self.vertices.len() as u64,

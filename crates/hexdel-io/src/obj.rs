@@ -71,6 +71,7 @@ pub(crate) fn read_obj(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
         Some((index, line)) if index >= mesh.vertices.len() => Err(ReadError::IndexOutOfRange {
             file: file.to_owned(),
             line,
+            column: 0,
             index: index as i64 + 1,
             first: 1,
             points: mesh.vertices.len() as u64,
@@ -95,6 +96,7 @@ fn triangle(fields: &mut Fields<'_>, vertices: usize) -> Result<[VertexId; 3], R
             _ => Err(ReadError::IndexOutOfRange {
                 file: fields.row.file.to_owned(),
                 line: fields.row.line,
+                column: fields.row.column_of(field),
                 index: number.unwrap_or(0),
                 first: 1,
                 points: vertices as u64,

@@ -104,12 +104,14 @@ fn triangle(fields: &mut Fields<'_>, vertices: u64) -> Result<[VertexId; 3], Rea
         return Err(unsupported(fields.row, &format!("a face of {corners} corners")));
     }
     let mut corner = || {
+        let field = fields.peek();
         let index: i64 = fields.integer("the index of a point")?;
         match u64::try_from(index) {
             Ok(i) if i < vertices => Ok(VertexId::new(i as usize)),
             _ => Err(ReadError::IndexOutOfRange {
                 file: fields.row.file.to_owned(),
                 line: fields.row.line,
+                column: fields.row.column_of(field),
                 index,
                 first: 0,
                 points: vertices,

@@ -10,82 +10,12 @@ use serde::de::IgnoredAny;
 
 use crate::data::MeshData;
 use crate::error::ReadError;
-use crate::format::{MeshFormat, PointFormat};
+use crate::format::MeshFormat;
 use crate::json::{Source, parse, slurp};
 use crate::lines::BYTE_ORDER_MARK;
+use crate::mend::Mends;
 use crate::triangle::PointRange;
-use crate::{
-    geojson, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh, obj, off, table, triangle, vtu_in, wkt,
-};
-
-/// Reads points, and segments, holes and regions if the format has them.
-///
-/// A `.poly` file that announces 0 points has them in the `.node` file beside it.
-///
-/// # Errors
-///
-/// Every [`ReadError`]; file, line and item are named.
-///
-/// # Complexity
-///
-/// Linear in the size of the file, `n log n` for polygons; memory in proportion to
-/// what was read, never to what a header claims.
-pub fn read_points(path: impl AsRef<Path>) -> Result<Pslg, ReadError> {
-    let path = path.as_ref();
-    let name = path.display().to_string();
-    let Some(format) = PointFormat::from_path(path) else {
-        return Err(ReadError::UnknownExtension { file: name, known: PointFormat::READABLE });
-    };
-    let reader = open(path)?;
-    if format == PointFormat::Poly {
-        return triangle::read_poly(reader, &name, |_| read_nodes(&beside(path, "node")));
-    }
-    read_points_from(reader, format, &name)
-}
-
-/// Reads points from anything that can be read, `name` being what errors call it.
-///
-/// # Errors
-///
-/// As [`read_points`], and [`ReadError::PointsElsewhere`] for a `.poly` text
-/// without points.
-///
-/// # Examples
-///
-/// ```
-/// use hexdel_io::{PointFormat, read_points_from};
-///
-/// let pslg = read_points_from("x,y\n0.5,1\n".as_bytes(), PointFormat::Table, "inline")?;
-/// assert_eq!(pslg.points[0].x, 0.5);
-///
-/// let text = "POLYGON ((0 0, 4 0, 0 4, 0 0), (1 1, 2 1, 1 2, 1 1))";
-/// let pslg = read_points_from(text.as_bytes(), PointFormat::Wkt, "inline")?;
-/// assert_eq!((pslg.segments.len(), pslg.holes.len(), pslg.regions.len()), (6, 1, 1));
-///
-/// let error = read_points_from("1 2\n0 0.5 NaN\n".as_bytes(), PointFormat::Node, "a.node");
-/// assert_eq!(
-///     error.unwrap_err().to_string(),
-///     "a.node:2: coordinate NaN of point 0 is not finite",
-/// );
-/// # Ok::<(), hexdel_io::ReadError>(())
-/// ```
-pub fn read_points_from(reader: impl BufRead, format: PointFormat, name: &str) -> Result<Pslg, ReadError> {
-    let read_all = |read: fn(&Source<'_>) -> Result<Pslg, ReadError>, reader| {
-        read(&Source { bytes: &slurp(reader, name)?, file: name })
-    };
-    match format {
-        PointFormat::Node => triangle::read_node(reader, name).map(|(pslg, _)| pslg),
-        PointFormat::Poly => triangle::read_poly(reader, name, |line| {
-            Err(ReadError::PointsElsewhere { file: name.to_owned(), line })
-        }),
-        PointFormat::Table | PointFormat::Csv | PointFormat::Tsv => table::read_table(reader, name),
-        PointFormat::Wkt => wkt::read_wkt(reader, name),
-        PointFormat::GeoJson => read_all(geojson::read_geojson, reader),
-        PointFormat::Json => read_all(graph_json::read_any_json, reader),
-        PointFormat::CgShop => read_all(graph_json::read_cgshop, reader),
-        PointFormat::Ron => read_all(graph_ron::read_graph_ron, reader),
-    }
-}
+use crate::{medit, mesh_json, mesh_ron, msh, obj, off, triangle, vtu_in};
 
 /// Reads a mesh without what else its file knows, see [`read_mesh_data`].
 ///
@@ -108,7 +38,7 @@ pub fn read_mesh(path: impl AsRef<Path>) -> Result<TriMesh, ReadError> {
 ///
 /// # Complexity
 ///
-/// As [`read_points`].
+/// As [`read_points`](crate::read_points).
 pub fn read_mesh_data(path: impl AsRef<Path>) -> Result<MeshData, ReadError> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -202,15 +132,15 @@ pub fn read_mesh_pair(
     nodes: (impl BufRead, &str),
     elements: (impl BufRead, &str),
 ) -> Result<MeshData, ReadError> {
-    let (points, range) = triangle::read_node(nodes.0, nodes.1)?;
+    let (points, range) = triangle::read_node(nodes.0, nodes.1, &mut Mends::new(true))?;
     triangle::read_ele(elements.0, elements.1, points, range)
 }
 
 fn read_nodes(path: &Path) -> Result<(Pslg, PointRange), ReadError> {
-    triangle::read_node(open(path)?, &path.display().to_string())
+    triangle::read_node(open(path)?, &path.display().to_string(), &mut Mends::new(true))
 }
 
-fn open(path: &Path) -> Result<BufReader<File>, ReadError> {
+pub(crate) fn open(path: &Path) -> Result<BufReader<File>, ReadError> {
     let file = File::open(path).map_err(|source| ReadError::open(path, source))?;
     Ok(BufReader::with_capacity(1 << 16, file))
 }

@@ -39,12 +39,12 @@ impl Midpoints {
         Self { ends, markers, first: view.mesh.vertices.len() }
     }
 
-    /// Each midpoint's number, place and marker.
-    pub(crate) fn nodes(&self, vertices: &[DVec2]) -> impl Iterator<Item = (usize, DVec2, i32)> {
+    /// Each midpoint's number, the ends of its edge, its place and marker.
+    pub(crate) fn nodes(&self, vertices: &[DVec2]) -> impl Iterator<Item = (usize, [u32; 2], DVec2, i32)> {
         let edges = self.ends.iter().zip(&self.markers).enumerate();
-        edges.map(|(i, (ends, &marker))| {
+        edges.map(|(i, (&ends, &marker))| {
             let [a, b] = ends.map(|v| vertices[v as usize]);
-            (self.first + i, a.midpoint(b), marker)
+            (self.first + i, ends, a.midpoint(b), marker)
         })
     }
 

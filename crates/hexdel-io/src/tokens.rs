@@ -105,6 +105,7 @@ impl<R: BufRead> Tokens<R> {
         Err(ReadError::NonFinite {
             file: self.file().to_owned(),
             line: self.line(),
+            column: 0,
             item: "point",
             index,
             found: clip(word.unwrap_or_default()),
@@ -150,7 +151,7 @@ impl<R: BufRead> Tokens<R> {
     pub(crate) fn malformed(&self, expected: &'static str, found: Option<String>) -> ReadError {
         let last = || self.row[..self.done].split_ascii_whitespace().next_back().map(quote);
         let found = found.or_else(last).unwrap_or_else(|| "the end of the file".to_owned());
-        ReadError::Malformed { file: self.file().to_owned(), line: self.line(), expected, found }
+        ReadError::Malformed { file: self.file().to_owned(), line: self.line(), column: 0, expected, found }
     }
 
     pub(crate) fn unsupported(&self, what: String) -> ReadError {

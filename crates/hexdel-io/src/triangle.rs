@@ -17,9 +17,10 @@
 //! ```
 //!
 //! Counts are taken as claims: rows are read until they fulfil it, memory grows
-//! with the rows that are there. Rows with more fields than announced are an
-//! error, as dropping them would lose data. A largest area that is not positive
-//! means none, as in Triangle.
+//! with the rows that are there. What Triangle reads all the same is forgiven where the
+//! caller wants it ([`Mends`]): more fields than announced, or fewer of those that have a
+//! default, commas, integers with a point. A largest area that is not positive means
+//! none, as in Triangle.
 
 use std::io::BufRead;
 
@@ -28,6 +29,7 @@ use hexdel_geom::{Pslg, Region, TriMesh, VertexId};
 use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Comments, Fields, Lines, quote};
+use crate::mend::{Faults, Mends};
 
 /// The most items reserved on the word of a header, about a megabyte of points.
 const MAX_RESERVE: u64 = 1 << 16;
@@ -44,10 +46,14 @@ pub(crate) struct PointRange {
 }
 
 /// Reads a `.node` file.
-pub(crate) fn read_node(reader: impl BufRead, file: &str) -> Result<(Pslg, PointRange), ReadError> {
+pub(crate) fn read_node(
+    reader: impl BufRead,
+    file: &str,
+    mends: &mut Mends,
+) -> Result<(Pslg, PointRange), ReadError> {
     let mut lines = Lines::new(reader, file, Comments::Anywhere);
     let mut pslg = Pslg::default();
-    let range = point_section(&mut lines, &mut pslg)?;
+    let range = point_section(&mut lines, &mut pslg, mends)?;
     end_of_file(&mut lines, "points")?;
     Ok((pslg, range))
 }
@@ -56,19 +62,20 @@ pub(crate) fn read_node(reader: impl BufRead, file: &str) -> Result<(Pslg, Point
 pub(crate) fn read_poly(
     reader: impl BufRead,
     file: &str,
-    points_beside: impl FnOnce(u64) -> Result<(Pslg, PointRange), ReadError>,
-) -> Result<Pslg, ReadError> {
+    mends: &mut Mends,
+    points_beside: impl FnOnce(u64, &mut Mends) -> Result<(Pslg, PointRange), ReadError>,
+) -> Result<(Pslg, PointRange), ReadError> {
     let mut lines = Lines::new(reader, file, Comments::Anywhere);
     let mut pslg = Pslg::default();
-    let mut range = point_section(&mut lines, &mut pslg)?;
+    let mut range = point_section(&mut lines, &mut pslg, mends)?;
     if range.count == 0 {
-        (pslg, range) = points_beside(lines.number())?;
+        (pslg, range) = points_beside(lines.number(), mends)?;
     }
-    segment_section(&mut lines, &mut pslg, range)?;
-    hole_section(&mut lines, &mut pslg)?;
-    region_section(&mut lines, &mut pslg)?;
+    segment_section(&mut lines, &mut pslg, range, mends)?;
+    hole_section(&mut lines, &mut pslg, mends)?;
+    region_section(&mut lines, &mut pslg, mends)?;
     end_of_file(&mut lines, "regions")?;
-    Ok(pslg)
+    Ok((pslg, range))
 }
 
 /// Reads the triangles of an `.ele` file to the points of its `.node` file. The first
@@ -81,19 +88,20 @@ pub(crate) fn read_ele(
     range: PointRange,
 ) -> Result<MeshData, ReadError> {
     let mut lines = Lines::new(reader, file, Comments::Anywhere);
+    let mends = &mut Mends::new(true);
     let input_indices = input_indices(&points);
     let mut mesh = TriMesh { vertices: points.points, triangles: Vec::new() };
     let mut regions = Vec::new();
-    let (section, mut header) = Section::begin(&mut lines, "triangles", MAX_ITEMS)?;
+    let (section, mut header) = Section::begin(&mut lines, "triangles", MAX_ITEMS, mends)?;
+    let found = header.peek();
     let corners = header.integer_or(3u64, "3 corners per triangle")?;
     if corners != 3 {
-        let found = corners.to_string();
-        return Err(header.row.malformed("3 corners per triangle", Some(&found)));
+        return Err(header.row.malformed("3 corners per triangle", found));
     }
     let attributes = header.integer_or(0u64, "the number of attributes")?;
     header.end()?;
     mesh.triangles.reserve(section.reserve());
-    section.rows(&mut lines, |fields, _| {
+    section.rows(&mut lines, mends, |fields, _, _| {
         let mut corner = || range.index(fields).map(|v| VertexId::new(v as usize));
         mesh.triangles.push([corner()?, corner()?, corner()?]);
         for i in 0..attributes {
@@ -126,26 +134,38 @@ fn input_indices(points: &Pslg) -> Option<Vec<Option<u32>>> {
     distinct.windows(2).all(|w| w[0] < w[1]).then_some(indices)
 }
 
-fn point_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<PointRange, ReadError> {
-    let (section, mut header) = Section::begin(lines, "points", MAX_ITEMS)?;
+fn point_section<R: BufRead>(
+    lines: &mut Lines<R>,
+    pslg: &mut Pslg,
+    mends: &mut Mends,
+) -> Result<PointRange, ReadError> {
+    let (section, mut header) = Section::begin(lines, "points", MAX_ITEMS, mends)?;
+    let found = header.peek();
     let dimension = header.integer_or(2u64, "dimension 2")?;
     if dimension != 2 {
-        let found = dimension.to_string();
-        return Err(header.row.malformed("dimension 2", Some(&found)));
+        return Err(header.row.malformed("dimension 2", found));
     }
     let attributes = header.integer_or(0usize, "the number of attributes")?;
     let markers = marker_column(&mut header)?;
-    header.end()?;
+    end(header, mends)?;
 
     pslg.attributes_per_point = attributes;
     pslg.points.reserve(section.reserve());
     let count = section.count;
-    let first = section.rows(lines, |fields, index| {
-        pslg.points.push(fields.position("point", index)?);
+    let first = section.rows(lines, mends, |fields, index, mends| {
+        let point = fields.position("point", index)?;
+        let read = pslg.point_attributes.len();
         for _ in 0..attributes {
-            pslg.point_attributes.push(fields.number("an attribute")?);
+            match attribute(fields, mends) {
+                Ok(attribute) => pslg.point_attributes.push(attribute),
+                Err(error) => {
+                    pslg.point_attributes.truncate(read);
+                    return Err(error);
+                }
+            }
         }
-        push_marker(fields, markers, &mut pslg.point_markers)
+        pslg.points.push(point);
+        push_marker(fields, markers, &mut pslg.point_markers, mends)
     })?;
     Ok(PointRange { first, count })
 }
@@ -154,36 +174,45 @@ fn segment_section<R: BufRead>(
     lines: &mut Lines<R>,
     pslg: &mut Pslg,
     range: PointRange,
+    mends: &mut Mends,
 ) -> Result<(), ReadError> {
-    let (section, mut header) = Section::begin(lines, "segments", u64::MAX)?;
+    let (section, mut header) = Section::begin(lines, "segments", u64::MAX, mends)?;
     let markers = marker_column(&mut header)?;
-    header.end()?;
+    end(header, mends)?;
     pslg.segments.reserve(section.reserve());
-    section.rows(lines, |fields, _| {
+    section.rows(lines, mends, |fields, _, mends| {
         let ends = [range.index(fields)?, range.index(fields)?];
         pslg.segments.push(ends);
-        push_marker(fields, markers, &mut pslg.segment_markers)
+        push_marker(fields, markers, &mut pslg.segment_markers, mends)
     })?;
     Ok(())
 }
 
-fn hole_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<(), ReadError> {
-    let (section, header) = Section::begin(lines, "holes", u64::MAX)?;
-    header.end()?;
-    section.rows(lines, |fields, index| {
+fn hole_section<R: BufRead>(
+    lines: &mut Lines<R>,
+    pslg: &mut Pslg,
+    mends: &mut Mends,
+) -> Result<(), ReadError> {
+    let (section, header) = Section::begin(lines, "holes", u64::MAX, mends)?;
+    end(header, mends)?;
+    section.rows(lines, mends, |fields, index, _| {
         pslg.holes.push(fields.position("hole", index)?);
         Ok(())
     })?;
     Ok(())
 }
 
-fn region_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<(), ReadError> {
-    let (section, header) = match Section::begin(lines, "regions", u64::MAX) {
+fn region_section<R: BufRead>(
+    lines: &mut Lines<R>,
+    pslg: &mut Pslg,
+    mends: &mut Mends,
+) -> Result<(), ReadError> {
+    let (section, header) = match Section::begin(lines, "regions", u64::MAX, mends) {
         Err(ReadError::MissingSection { .. }) => return Ok(()),
         begun => begun?,
     };
-    header.end()?;
-    section.rows(lines, |fields, index| {
+    end(header, mends)?;
+    section.rows(lines, mends, |fields, index, _| {
         let point = fields.position("region", index)?;
         let attribute = fields.number("the attribute of a region")?;
         let max_area = match fields.text() {
@@ -201,18 +230,68 @@ fn region_section<R: BufRead>(lines: &mut Lines<R>, pslg: &mut Pslg) -> Result<(
 
 fn marker_column(header: &mut Fields<'_>) -> Result<bool, ReadError> {
     const EXPECTED: &str = "0 or 1 boundary markers";
+    let found = header.peek();
     match header.integer_or(0u64, EXPECTED)? {
         0 => Ok(false),
         1 => Ok(true),
-        more => Err(header.row.malformed(EXPECTED, Some(&more.to_string()))),
+        _ => Err(header.row.malformed(EXPECTED, found)),
     }
 }
 
-fn push_marker(fields: &mut Fields<'_>, present: bool, markers: &mut Vec<i32>) -> Result<(), ReadError> {
-    if present {
-        markers.push(fields.integer("a boundary marker")?);
+/// An attribute of a point, 0 where it is missing.
+fn attribute(fields: &mut Fields<'_>, mends: &mut Mends) -> Result<f64, ReadError> {
+    if fields.peek().is_none() {
+        let missing = || fields.row.malformed("an attribute", None);
+        mends.forgive("missing attributes are taken to be 0", missing)?;
+        return Ok(0.0);
     }
+    fields.number("an attribute")
+}
+
+/// The marker of a point or segment, 0 where it is missing.
+fn push_marker(
+    fields: &mut Fields<'_>,
+    present: bool,
+    markers: &mut Vec<i32>,
+    mends: &mut Mends,
+) -> Result<(), ReadError> {
+    const EXPECTED: &str = "a boundary marker";
+    if !present {
+        return Ok(());
+    }
+    let marker = match fields.peek() {
+        None => {
+            let missing = || fields.row.malformed(EXPECTED, None);
+            mends.forgive("missing markers are taken to be 0", missing)?;
+            0
+        }
+        Some(text) => match whole(text) {
+            Some(marker) => {
+                let fault = || fields.row.malformed(EXPECTED, Some(text));
+                mends.forgive("markers with a decimal point are taken for integers", fault)?;
+                fields.text();
+                marker
+            }
+            None => fields.integer(EXPECTED)?,
+        },
+    };
+    markers.push(marker);
     Ok(())
+}
+
+/// The integer that is written with a decimal point or an exponent.
+fn whole(text: &str) -> Option<i32> {
+    let number: f64 = text.parse().ok().filter(|_| text.parse::<i32>().is_err())?;
+    let marker = number as i32;
+    (f64::from(marker) == number && text.contains(['.', 'e', 'E'])).then_some(marker)
+}
+
+/// Checks that a row ends; what Triangle does not look at is left.
+fn end(fields: Fields<'_>, mends: &mut Mends) -> Result<(), ReadError> {
+    match fields.end() {
+        Ok(()) => Ok(()),
+        Err(fault) => mends.forgive("fields beyond those announced are left", || fault),
+    }
 }
 
 fn end_of_file<R: BufRead>(lines: &mut Lines<R>, section: &'static str) -> Result<(), ReadError> {
@@ -222,14 +301,21 @@ fn end_of_file<R: BufRead>(lines: &mut Lines<R>, section: &'static str) -> Resul
     Err(ReadError::TrailingRow {
         file: row.file.to_owned(),
         line: row.line,
+        column: row.column_of(row.fields().text()),
         section,
         found: quote(row.fields().text().unwrap_or_default()),
     })
 }
 
 impl PointRange {
+    /// The number of the first point, 0 if there is none.
+    pub(crate) fn first_number(self) -> u32 {
+        u32::from(self.first == Some(1))
+    }
+
     /// Reads the index of a point and counts it from 0.
     fn index(self, fields: &mut Fields<'_>) -> Result<u32, ReadError> {
+        let field = fields.peek();
         let index: i64 = fields.integer("the index of a point")?;
         let first = self.first.unwrap_or(0);
         let from_0 = u64::try_from(index).ok().and_then(|i| i.checked_sub(first));
@@ -238,6 +324,7 @@ impl PointRange {
             None => Err(ReadError::IndexOutOfRange {
                 file: fields.row.file.to_owned(),
                 line: fields.row.line,
+                column: fields.row.column_of(field),
                 index,
                 first,
                 points: self.count,
@@ -258,6 +345,7 @@ impl Section {
         lines: &'l mut Lines<R>,
         name: &'static str,
         limit: u64,
+        mends: &mut Mends,
     ) -> Result<(Self, Fields<'l>), ReadError> {
         let (file, last_line) = (lines.file().to_owned(), lines.number());
         let Some(row) = lines.next_row()? else {
@@ -269,7 +357,7 @@ impl Section {
                 section: name,
             });
         };
-        let mut fields = row.fields();
+        let mut fields = mends.fields(row)?;
         let count = fields.integer(count_of(name))?;
         if count > limit {
             return Err(ReadError::TooMany { file, line: row.line, section: name, limit });
@@ -287,11 +375,13 @@ impl Section {
     fn rows<R: BufRead>(
         self,
         lines: &mut Lines<R>,
-        mut read: impl FnMut(&mut Fields<'_>, u64) -> Result<(), ReadError>,
+        mends: &mut Mends,
+        mut read: impl FnMut(&mut Fields<'_>, u64, &mut Mends) -> Result<(), ReadError>,
     ) -> Result<Option<u64>, ReadError> {
-        let mut first = None;
+        let (mut first, mut faults) = (None, Faults::default());
         for done in 0..self.count {
-            let Some(row) = lines.next_row()? else {
+            let Some(row) = faults.note(lines.next_row())?.flatten() else {
+                faults.take()?;
                 return Err(ReadError::Truncated {
                     file: lines.file().to_owned(),
                     line: lines.number(),
@@ -300,30 +390,53 @@ impl Section {
                     found: done,
                 });
             };
-            let mut fields = row.fields();
-            let index = row_number(&mut fields, first.map(|first| first + done))?;
+            let mut fields = mends.fields(row)?;
+            let number = row_number(&mut fields, first.map(|first| first + done), self.refers(), mends);
+            let Some(index) = faults.note(number)? else {
+                first.get_or_insert(0);
+                continue;
+            };
             first.get_or_insert(index);
-            read(&mut fields, index)?;
-            fields.end()?;
+            faults.note(read(&mut fields, index, mends).and_then(|()| end(fields, mends)))?;
         }
+        faults.take()?;
         Ok(first)
+    }
+
+    /// Whether others refer to the rows by their numbers.
+    fn refers(&self) -> bool {
+        self.name == "points"
     }
 }
 
 /// Reads the number of a row, which must be the one that is due, 0 or 1 in the
 /// first row.
-fn row_number(fields: &mut Fields<'_>, due: Option<u64>) -> Result<u64, ReadError> {
+fn row_number(
+    fields: &mut Fields<'_>,
+    due: Option<u64>,
+    refers: bool,
+    mends: &mut Mends,
+) -> Result<u64, ReadError> {
+    let field = fields.peek();
     let found: i64 = fields.integer("the number of the row")?;
     match (u64::try_from(found), due) {
-        (Ok(found @ (0 | 1)), None) => Ok(found),
-        (Ok(found), Some(due)) if found == due => Ok(found),
-        _ => Err(ReadError::NonConsecutive {
-            file: fields.row.file.to_owned(),
-            line: fields.row.line,
-            expected: due.unwrap_or(0),
-            found,
-        }),
+        (Ok(found @ (0 | 1)), None) => return Ok(found),
+        (Ok(found), Some(due)) if found == due => return Ok(found),
+        _ => {}
     }
+    let due = due.unwrap_or(0);
+    let fault = ReadError::NonConsecutive {
+        file: fields.row.file.to_owned(),
+        line: fields.row.line,
+        column: fields.row.column_of(field),
+        expected: due,
+        found,
+    };
+    if refers {
+        return Err(fault);
+    }
+    mends.forgive("rows are taken in their order", || fault)?;
+    Ok(due)
 }
 
 fn count_of(section: &str) -> &'static str {

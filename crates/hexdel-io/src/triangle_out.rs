@@ -1,12 +1,12 @@
 //! Shewchuk's Triangle formats: writing `.node`, `.ele`, `.edge`, `.neigh` and `.poly`.
 //!
-//! Everything is numbered from 0. Meshes whose vertices know their input point
-//! carry its index as the one attribute, -1 for Steiner points; triangles carry the
-//! attribute of their region, vertices a marker, if the mesh has them.
+//! Everything is numbered from 0, or from 1 where a mesh is to be. Meshes whose vertices know their input point
+//! carry its index as the one attribute, -1 for Steiner points, unless there are attributes of
+//! their own; triangles carry the attribute of their region, vertices a marker, if the mesh has them.
 
 use std::io::{self, Write};
 
-use hexdel_geom::{DVec2, Pslg};
+use hexdel_geom::{DVec2, Pslg, Region};
 
 use crate::second_order::Midpoints;
 use crate::text::TextWriter;
@@ -21,26 +21,65 @@ pub(crate) fn write_node(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result
 
 fn write_nodes(out: &mut dyn Write, view: &MeshView<'_>, midpoints: Option<&Midpoints>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
-    let attributes = u32::from(view.input_indices.is_some());
+    let first = view.first_number as usize;
+    let of_vertices = Attributes::of(view);
     text.integer(view.mesh.vertices.len() + midpoints.map_or(0, Midpoints::count)).text(" 2 ");
-    text.integer(attributes).text(" ");
+    text.integer(of_vertices.count()).text(" ");
     text.integer(u32::from(view.vertex_markers.is_some())).text("\n");
     for (i, &p) in view.mesh.vertices.iter().enumerate() {
-        position_row(&mut text, i, p);
-        if view.input_indices.is_some() {
-            let index = view.input_index(i).map_or(-1, i64::from);
-            text.text(" ").integer(index);
-        }
+        position_row(&mut text, first + i, p);
+        of_vertices.write(&mut text, [i, i]);
         end_with_marker(&mut text, view.vertex_markers.map(|markers| &markers[i]))?;
     }
-    for (i, p, marker) in midpoints.iter().flat_map(|m| m.nodes(&view.mesh.vertices)) {
-        position_row(&mut text, i, p);
-        if view.input_indices.is_some() {
-            text.text(" -1");
-        }
+    for (i, ends, p, marker) in midpoints.iter().flat_map(|m| m.nodes(&view.mesh.vertices)) {
+        position_row(&mut text, first + i, p);
+        of_vertices.write(&mut text, ends.map(|v| v as usize));
         end_with_marker(&mut text, view.vertex_markers.map(|_| &marker))?;
     }
     text.finish()
+}
+
+/// The attributes of vertices in a file.
+enum Attributes<'a> {
+    None,
+    /// The index of the input point.
+    Input(&'a [Option<u32>]),
+    /// Their own, so many for each.
+    Own(&'a [f64], usize),
+}
+
+impl<'a> Attributes<'a> {
+    fn of(view: &MeshView<'a>) -> Self {
+        match (view.vertex_attributes, view.input_indices) {
+            (Some((all, per_vertex)), _) => Self::Own(all, per_vertex),
+            (None, Some(indices)) => Self::Input(indices),
+            (None, None) => Self::None,
+        }
+    }
+
+    fn count(&self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Input(_) => 1,
+            Self::Own(_, per_vertex) => *per_vertex,
+        }
+    }
+
+    /// Writes those of a vertex, or of the midpoint between two.
+    fn write(&self, text: &mut TextWriter<'_>, [a, b]: [usize; 2]) {
+        match self {
+            Self::None => {}
+            Self::Input(indices) => {
+                let index = indices[a].filter(|_| a == b).map_or(-1, i64::from);
+                text.text(" ").integer(index);
+            }
+            Self::Own(all, n) => {
+                for (x, y) in all[a * n..(a + 1) * n].iter().zip(&all[b * n..(b + 1) * n]) {
+                    text.text(" ").number(x.midpoint(*y));
+                }
+            }
+        }
+    }
 }
 
 /// Writes the triangles of a mesh, with six nodes each if of second order.
@@ -49,13 +88,14 @@ pub(crate) fn write_ele(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
     let mut text = TextWriter::new(out);
     text.integer(view.mesh.triangles.len()).text(if midpoints.is_some() { " 6 " } else { " 3 " });
     text.integer(u32::from(view.regions.is_some())).text("\n");
+    let first = view.first_number as usize;
     for (i, corners) in view.mesh.triangles.iter().enumerate() {
-        text.integer(i);
+        text.integer(first + i);
         for corner in corners {
-            text.text(" ").integer(corner.index());
+            text.text(" ").integer(first + corner.index());
         }
         for node in midpoints.iter().flat_map(|m| m.of(*corners)) {
-            text.text(" ").integer(node);
+            text.text(" ").integer(first + node);
         }
         if let Some(regions) = view.regions {
             text.text(" ").number(regions[i]);
@@ -80,8 +120,10 @@ pub(crate) fn write_edge(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result
     for (i, edge) in edges.iter().enumerate() {
         let found = marked.binary_search_by_key(&edge.ends, |(ends, _)| *ends);
         let marker = found.map_or(i32::from(edge.triangles == 1), |at| marked[at].1);
-        text.integer(i).text(" ").integer(edge.ends[0]);
-        text.text(" ").integer(edge.ends[1]);
+        text.integer(i + view.first_number as usize);
+        for end in edge.ends {
+            text.text(" ").integer(end + view.first_number);
+        }
         end_with_marker(&mut text, Some(&marker))?;
     }
     text.finish()
@@ -93,9 +135,10 @@ pub(crate) fn write_neigh(out: &mut dyn Write, view: &MeshView<'_>) -> io::Resul
     let edges = Edges::new(view.mesh);
     text.integer(view.mesh.triangles.len()).text(" 3\n");
     for (t, &corners) in view.mesh.triangles.iter().enumerate() {
-        text.integer(t);
+        let first = i64::from(view.first_number);
+        text.integer(t + view.first_number as usize);
         for neighbour in edges.neighbours(t, corners) {
-            text.text(" ").integer(neighbour.map_or(-1, i64::from));
+            text.text(" ").integer(neighbour.map_or(-1, |n| first + i64::from(n)));
         }
         text.text("\n").breathe()?;
     }
@@ -107,9 +150,12 @@ pub(crate) fn write_neigh(out: &mut dyn Write, view: &MeshView<'_>) -> io::Resul
 pub(crate) fn write_mesh_poly(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     write_nodes(out, view, None)?;
     let mut text = TextWriter::new(out);
+    let first = view.first_number;
     let segment = |text: &mut TextWriter<'_>, i: usize, ends: [u32; 2], marker: i32| {
-        text.integer(i).text(" ").integer(ends[0]);
-        text.text(" ").integer(ends[1]);
+        text.integer(first as usize + i);
+        for end in ends {
+            text.text(" ").integer(first + end);
+        }
         end_with_marker(text, Some(&marker))
     };
     if let Some(marked) = view.marked_edges {
@@ -125,7 +171,8 @@ pub(crate) fn write_mesh_poly(out: &mut dyn Write, view: &MeshView<'_>) -> io::R
             segment(&mut text, i, edge.ends, 1)?;
         }
     }
-    text.text("0\n").finish()
+    seed_sections(&mut text, view.seeds.0, view.seeds.1, first as usize)?;
+    text.finish()
 }
 
 /// Writes points with their attributes and markers.
@@ -140,20 +187,37 @@ pub(crate) fn write_poly(out: &mut dyn Write, pslg: &Pslg) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     point_section(&mut text, pslg)?;
     segment_section(&mut text, pslg)?;
-    text.integer(pslg.holes.len()).text("\n");
-    for (i, &hole) in pslg.holes.iter().enumerate() {
-        position_row(&mut text, i, hole);
+    seed_sections(&mut text, &pslg.holes, &pslg.regions, 0)?;
+    if pslg.regions.is_empty() {
+        text.text("0\n");
+    }
+    text.finish()
+}
+
+/// Holes and, if there are any, regions.
+fn seed_sections(
+    text: &mut TextWriter<'_>,
+    holes: &[DVec2],
+    regions: &[Region],
+    first: usize,
+) -> io::Result<()> {
+    text.integer(holes.len()).text("\n");
+    for (i, &hole) in holes.iter().enumerate() {
+        position_row(text, first + i, hole);
         text.text("\n").breathe()?;
     }
-    text.integer(pslg.regions.len()).text("\n");
-    for (i, region) in pslg.regions.iter().enumerate() {
-        position_row(&mut text, i, region.point);
+    if regions.is_empty() {
+        return Ok(());
+    }
+    text.integer(regions.len()).text("\n");
+    for (i, region) in regions.iter().enumerate() {
+        position_row(text, first + i, region.point);
         text.text(" ").number(region.attribute);
         // Triangle takes the attribute for the area if there is no area.
         text.text(" ").number(region.max_area.unwrap_or(-1.0));
         text.text("\n").breathe()?;
     }
-    text.finish()
+    Ok(())
 }
 
 fn point_section(text: &mut TextWriter<'_>, pslg: &Pslg) -> io::Result<()> {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use hexdel_geom::{TriMesh, VertexId};
+use hexdel_geom::{DVec2, Region, TriMesh, VertexId};
 use serde::{Deserialize, Serialize};
 
 use crate::error::WriteError;
@@ -57,6 +57,13 @@ pub struct MeshView<'a> {
     /// Whether triangles get nodes on the midpoints of their edges, as elements of
     /// second order. Kept by `.node` and `.ele`.
     pub second_order: bool,
+    /// Attributes of each vertex in a row, as many for each. Kept by `.node` and the vertices
+    /// of `.poly`, in the place of input indices.
+    pub vertex_attributes: Option<(&'a [f64], usize)>,
+    /// The number of the first vertex and triangle in Triangle's files: 0 or 1.
+    pub first_number: u32,
+    /// Points in holes, and those of regions, of the graph that was meshed. Kept by `.poly`.
+    pub seeds: (&'a [DVec2], &'a [Region]),
     /// How pictures look and what else is on them.
     pub picture: Picture<'a>,
 }
@@ -72,6 +79,9 @@ impl<'a> MeshView<'a> {
             marked_edges: None,
             certificate: None,
             second_order: false,
+            vertex_attributes: None,
+            first_number: 0,
+            seeds: (&[], &[]),
             picture: Picture::default(),
         }
     }
@@ -104,6 +114,24 @@ impl<'a> MeshView<'a> {
     #[must_use]
     pub fn with_certificate(self, certificate: &'a dyn erased_serde::Serialize) -> Self {
         Self { certificate: Some(certificate), ..self }
+    }
+
+    /// With attributes of vertices, so many for each.
+    #[must_use]
+    pub fn with_vertex_attributes(self, attributes: &'a [f64], per_vertex: usize) -> Self {
+        Self { vertex_attributes: Some((attributes, per_vertex)), ..self }
+    }
+
+    /// With another number of the first vertex and triangle in Triangle's files than 0.
+    #[must_use]
+    pub fn with_first_number(self, first_number: u32) -> Self {
+        Self { first_number, ..self }
+    }
+
+    /// With points in holes, and those of regions.
+    #[must_use]
+    pub fn with_seeds(self, holes: &'a [DVec2], regions: &'a [Region]) -> Self {
+        Self { seeds: (holes, regions), ..self }
     }
 
     /// With nodes on the midpoints of edges, or without.
@@ -141,14 +169,10 @@ impl<'a> MeshView<'a> {
             ("vertex markers", self.vertex_markers.is_some(), &markers),
             ("regions", self.regions.is_some(), &regions),
             ("marked edges", self.marked_edges.is_some(), &edges),
+            ("vertex attributes", self.vertex_attributes.is_some_and(|(_, n)| n > 0), &[F::NodeEle, F::Poly]),
         ];
         let lost = all.iter().filter(|(_, there, carry)| *there && !carry.contains(&format));
         lost.map(|(name, ..)| *name).collect()
-    }
-
-    /// The index of the input point that `vertex` is.
-    pub(crate) fn input_index(&self, vertex: usize) -> Option<u32> {
-        self.input_indices.and_then(|indices| indices[vertex])
     }
 
     /// Checks what every format relies on, so that no writer can fail half-way
@@ -180,6 +204,11 @@ impl<'a> MeshView<'a> {
             ("input indices", vertices, self.input_indices.map(<[_]>::len)),
             ("vertex markers", vertices, self.vertex_markers.map(<[_]>::len)),
             ("regions", triangles, self.regions.map(<[_]>::len)),
+            (
+                "vertex attributes",
+                self.vertex_attributes.map_or(0, |(_, per_vertex)| per_vertex.saturating_mul(vertices)),
+                self.vertex_attributes.map(|(all, _)| all.len()),
+            ),
         ];
         for (array, expected, found) in arrays {
             if let Some(found) = found

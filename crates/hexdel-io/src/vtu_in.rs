@@ -364,6 +364,7 @@ impl Grid {
                 return Err(ReadError::NonFinite {
                     file: self.file.clone(),
                     line: self.line.get(),
+                    column: 0,
                     item: "point",
                     index: index as u64,
                     found: bad.to_string(),
@@ -389,6 +390,7 @@ impl Grid {
             _ => Err(ReadError::IndexOutOfRange {
                 file: self.file.clone(),
                 line: self.line.get(),
+                column: 0,
                 index,
                 first: 0,
                 points: count as u64,

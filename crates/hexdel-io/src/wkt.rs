@@ -156,6 +156,7 @@ impl<R: BufRead> Parser<R> {
             return Err(ReadError::NonFinite {
                 file: self.scanner.file.clone(),
                 line: self.scanner.line,
+                column: 0,
                 item: "point",
                 index: self.points,
                 found: clip(word),
@@ -283,7 +284,7 @@ impl<R: BufRead> Scanner<R> {
             Token::Mark(mark) => format!("\"{}\"", char::from(*mark)),
             Token::End => "the end of the file".to_owned(),
         };
-        ReadError::Malformed { file: self.file.clone(), line: self.line, expected, found }
+        ReadError::Malformed { file: self.file.clone(), line: self.line, column: 0, expected, found }
     }
 }
 

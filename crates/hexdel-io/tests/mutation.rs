@@ -14,8 +14,8 @@ use std::path::Path;
 
 use hexdel_geom::{DVec2, Pslg, Region, TriMesh, VertexId};
 use hexdel_io::{
-    MarkedEdge, MeshData, MeshFormat, PointFormat, ReadError, holds_mesh, parse_raster, parse_sizes,
-    read_mesh_from, read_mesh_pair, read_points_from, write_mesh_to, write_points_to,
+    MarkedEdge, MeshData, MeshFormat, PointFormat, PointReader, ReadError, holds_mesh, parse_raster,
+    parse_sizes, read_mesh_from, read_mesh_pair, read_points_from, write_mesh_to, write_points_to,
 };
 
 /// Damaged files per format in a test run: a few seconds in all.
@@ -183,6 +183,11 @@ fn read(name: &str, bytes: &[u8]) {
         holds_mesh(bytes, format);
     }
     if let Some(format) = PointFormat::from_name(name) {
+        let read = PointReader::new().read_from(bytes, format, "f");
+        assert!(
+            read.is_ok_and(|file| file.pslg.check_layout().is_ok())
+                || read_points_from(bytes, format, "f").is_err()
+        );
         match read_points_from(bytes, format, "f") {
             Ok(pslg) => {
                 assert_eq!(pslg.check_layout(), Ok(()));

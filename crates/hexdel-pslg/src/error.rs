@@ -1,5 +1,6 @@
 //! Why a graph is no input, and why one could not be meshed.
 
+use crate::validate::Validated;
 use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, PslgLayoutError};
 use hexdel_optimize::OptimizeError;
 use thiserror::Error;
@@ -115,8 +116,13 @@ pub enum PslgError {
         at: DVec2,
     },
     /// The inside was asked for, and nothing is enclosed by segments.
-    #[error("no part of the plane is enclosed by segments and no hole")]
-    NothingEnclosed,
+    #[error("no part of the plane is enclosed by segments and no hole{}", listed(loose, *count))]
+    NothingEnclosed {
+        /// The first five points where only one segment ends.
+        loose: Vec<LooseEnd>,
+        /// How many there are.
+        count: usize,
+    },
     /// Away from segments the method does not keep the bounds asked for.
     #[error(
         "angles between {} and {} degrees are more than the method keeps away from segments ({} to {})",
@@ -156,6 +162,47 @@ pub enum PslgError {
     /// The monitor asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// A point where only one segment ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LooseEnd {
+    /// Index of the point.
+    pub point: usize,
+    /// Where it is.
+    pub at: DVec2,
+}
+
+/// Loose ends that are told one by one.
+const TOLD: usize = 5;
+
+impl PslgError {
+    /// Nothing is enclosed: where segments end loose.
+    pub(crate) fn nothing_enclosed(input: &Validated) -> Self {
+        let mut ends = vec![0_u32; input.points.sites().len()];
+        let segments = input.pieces.iter().filter(|piece| matches!(piece.feature(), Feature::Segment(_)));
+        segments.flat_map(|piece| piece.ends).for_each(|site| ends[site as usize] += 1);
+        let loose = || (0..ends.len()).filter(|&site| ends[site] == 1);
+        let told = |site: usize| LooseEnd {
+            point: input.points.input_of_site()[site] as usize,
+            at: input.points.sites()[site],
+        };
+        Self::NothingEnclosed { loose: loose().take(TOLD).map(told).collect(), count: loose().count() }
+    }
+}
+
+/// The points at which segments end loose, as the end of a sentence.
+fn listed(loose: &[LooseEnd], count: usize) -> String {
+    if loose.is_empty() {
+        return String::new();
+    }
+    let ends: Vec<String> =
+        loose.iter().map(|end| format!("point {} at ({}, {})", end.point, end.at.x, end.at.y)).collect();
+    let more = match count.saturating_sub(loose.len()) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("; segments end loose at {}{more}", ends.join(", "))
 }
 
 /// A point or segment of the input, by index.

@@ -18,6 +18,8 @@
 //! |---|---|
 //! | `validate` | is it planar? |
 //! | `pairs`, `repair` | what touches, and what to do about it |
+//! | `repeated` | segments that are superfluous |
+//! | `interpolate` | values between points |
 //! | `sizing` | how fine the grid must be |
 //! | `limits` | limits on the area of triangles and the length of edges |
 //! | `hull` | the convex hull as a boundary |
@@ -45,6 +47,7 @@ mod field;
 mod fit;
 mod geometry;
 mod hull;
+mod interpolate;
 mod limits;
 mod locator;
 mod mesher;
@@ -54,17 +57,19 @@ mod output;
 mod pairs;
 mod paper;
 mod repair;
+mod repeated;
 mod result;
 mod sectors;
 mod sizing;
 mod validate;
 pub use carve::Carved;
-pub use error::{Feature, PslgError, ValidateError};
+pub use error::{Feature, LooseEnd, PslgError, ValidateError};
 pub use hexdel_optimize::Effort;
 pub use mesher::{mesh, mesh_sized};
 pub use options::{Extent, Options, SegmentMethod};
 pub use output::vertex_markers;
 pub use repair::{Repair, RepairReport, repair};
+pub use repeated::drop_repeated;
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge, holds};
 pub use sectors::{NarrowCorner, hopeless_pairs, narrow_corners};
 pub use validate::{Divided, Validated, validate, violations};

@@ -355,7 +355,7 @@ impl<'a> Mesher<'a> {
         let mut net = embed(Net::of(&dual.mesh), &self.scene, monitor)?;
         carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
         if net.alive().next().is_none() {
-            return Err(PslgError::NothingEnclosed);
+            return Err(PslgError::nothing_enclosed(self.input));
         }
         let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
         optimise(&mut net, self.judge(), &excused, self.deadline, monitor)?;

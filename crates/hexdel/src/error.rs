@@ -142,6 +142,13 @@ pub enum Error {
         /// Its certificate for the bounds asked for, which does not hold.
         certificate: Box<Certificate>,
     },
+    /// Hexagons cannot be refined as the points ask for. The closest pair having been
+    /// found to be resolved, this is a defect of the library.
+    #[error(transparent)]
+    Refine(RefineError),
+    /// The mesh cannot be made of the hexagons. This is a defect of the library.
+    #[error(transparent)]
+    Dual(DualError),
     /// The mesh made to start optimisation with is none that it takes. This is
     /// a defect of the library.
     #[error(transparent)]
@@ -164,7 +171,17 @@ impl From<DualError> for Error {
     fn from(error: DualError) -> Self {
         match error {
             DualError::TooManyVertices { count } => Self::TooManyVertices { count },
-            _ => Self::Cancelled(Cancelled),
+            DualError::Cancelled(c) => Self::Cancelled(c),
+            other => Self::Dual(other),
+        }
+    }
+}
+
+impl From<RefineError> for Error {
+    fn from(error: RefineError) -> Self {
+        match error {
+            RefineError::Cancelled(c) => Self::Cancelled(c),
+            other => Self::Refine(other),
         }
     }
 }
@@ -201,16 +218,6 @@ impl Error {
                 certificate.out_of_bounds
             }
             _ => usize::MAX,
-        }
-    }
-
-    /// A refinement error, which only cancellation can cause once the closest
-    /// pair has been found to be resolved; with the pair, should it be the
-    /// other one after all.
-    pub(crate) fn of_refinement(error: RefineError, too_close: impl FnOnce() -> Self) -> Self {
-        match error {
-            RefineError::Cancelled(c) => Self::Cancelled(c),
-            _ => too_close(),
         }
     }
 }

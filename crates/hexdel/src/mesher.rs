@@ -252,9 +252,15 @@ impl Mesher {
         self
     }
 
-    /// What a session keeps of the options.
-    pub(crate) fn for_session(&self) -> (Effort, Option<Size>) {
-        (self.effort, self.size.clone())
+    /// What a session meshes anew with; the size and the domain are its own.
+    pub(crate) fn for_session(&self) -> Self {
+        let graph = self.graph.clone().for_session();
+        Self { size: None, domain_radius: None, centre: None, graph, ..self.clone() }
+    }
+
+    /// How many threads were asked for.
+    pub(crate) fn asked_threads(&self) -> Option<usize> {
+        self.threads
     }
 
     /// How many threads work, by default as many as the machine has. The mesh
@@ -373,6 +379,17 @@ impl Mesher {
         self.on_threads(|| self.run(points, monitor))
     }
 
+    /// Refuses bounds that a method without optimisation does not keep.
+    pub(crate) fn refuse_bounds_beyond(&self, method: Method) -> Result<(), Error> {
+        let kept = method.bounds();
+        match self.bounds {
+            Some(asked) if method != Method::Compact && !method.keeps(asked) => {
+                Err(Error::BoundsBeyondMethod { asked, kept })
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Works on as many threads as asked for.
     pub(crate) fn on_threads<T: Send>(
         &self,
@@ -392,9 +409,7 @@ impl Mesher {
         self.graph.refuse_for_points()?;
         let kept = self.method.bounds();
         let bounds = self.bounds.unwrap_or(kept);
-        if self.method != Method::Compact && !self.method.keeps(bounds) {
-            return Err(Error::BoundsBeyondMethod { asked: bounds, kept });
-        }
+        self.refuse_bounds_beyond(self.method)?;
         let set = PointSet::new(points)?;
         let placement = Placement::around(&set, self.domain_radius, self.centre, self.method)?;
         self.check_size(&placement)?;
@@ -438,9 +453,7 @@ impl Mesher {
         let began = Instant::now();
         let mut refiner = Refiner::new(placement.lattice, start.rules(self.effort))
             .with_coarsening(!self.without_coarsening);
-        refiner
-            .insert(set.sites(), monitor)
-            .map_err(|error| Error::of_refinement(error, || placement::unresolved(set)))?;
+        refiner.insert(set.sites(), monitor).map_err(Error::from)?;
         let refined = Instant::now();
 
         let relocation = start.relocation();
@@ -501,7 +514,7 @@ impl Mesher {
         let mut refiner = Refiner::new(placement.lattice, Start::Templates.rules(self.effort));
         self.on_threads(|| {
             let refined = refiner.insert(set.sites(), &Unwatched);
-            refined.map_err(|error| Error::of_refinement(error, || placement::unresolved(&set)))
+            refined.map_err(Error::from)
         })?;
         let domain = placement.domain(refiner.grid(), Relocation::Full)?;
         let lattice = placement.lattice;

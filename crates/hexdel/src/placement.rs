@@ -253,14 +253,6 @@ fn too_close(points: &PointSet, pair: &ClosestPair, least: f64) -> Error {
     }
 }
 
-/// The error for a pair that refinement could not separate.
-pub(crate) fn unresolved(points: &PointSet) -> Error {
-    match closest_pair(points.sites()) {
-        Some(pair) => too_close(points, &pair, 2.0 * pair.distance),
-        None => Error::Points(hexdel_geom::PointsError::Empty),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -41,13 +41,17 @@ impl Sized<'_> {
     pub(crate) fn extract(&mut self, patch: Domain) -> Result<(Dual, Domain), Error> {
         let mut domain = self.with_base(patch)?;
         let mut first = domain.radius;
-        for _ in 0..ROUNDS {
+        let mut longest = None;
+        for round in 0..ROUNDS {
             let dual = self.refiner.extract(domain, self.relocation, self.monitor)?;
             // What is fine in a place that no triangle has seen yet shows later.
             check_count(&dual.mesh, self.size)?;
             let long = self.at_long_edges(&dual.mesh, domain.base_level)?;
             if long.is_empty() {
                 return Ok((dual, domain));
+            }
+            if round + 1 == ROUNDS {
+                longest = Some(worst(&dual.mesh, self.size));
             }
             self.subdivide(long)?;
             domain = self.around(domain)?;
@@ -56,7 +60,8 @@ impl Sized<'_> {
                 first = domain.radius;
             }
         }
-        Err(SizeError::TooMany { triangles: f64::INFINITY }.into())
+        let (_, at, length) = longest.expect("the last round has found edges that are too long");
+        Err(SizeError::Unreached { at, length }.into())
     }
 
     /// The patch at a base level as fine as its rim is to be.
@@ -92,7 +97,7 @@ impl Sized<'_> {
     fn subdivide(&mut self, hexagons: Vec<Address>) -> Result<(), Error> {
         self.refiner.subdivide_all(hexagons, self.monitor).map_err(|error| match error {
             RefineError::Cancelled(c) => Error::Cancelled(c),
-            _ => SizeError::TooMany { triangles: f64::INFINITY }.into(),
+            _ => SizeError::TooFine { levels: Grid::MAX_LEVELS }.into(),
         })
     }
 
@@ -114,7 +119,7 @@ impl Sized<'_> {
                 let leaves = [a, b, 0.5 * (a + b)].map(leaf);
                 let level = leaves.iter().map(|l| l.0).min().expect("three of them");
                 if level + 1 >= Grid::MAX_LEVELS {
-                    return Err(SizeError::TooMany { triangles: f64::INFINITY }.into());
+                    return Err(SizeError::TooFine { levels: Grid::MAX_LEVELS }.into());
                 }
                 found.extend(leaves.iter().filter(|l| l.0 == level).map(|l| (level, l.1.hex.q, l.1.hex.r)));
             }

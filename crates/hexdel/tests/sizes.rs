@@ -61,10 +61,10 @@ fn sizes_that_cannot_be_had_are_refused() {
     assert!(matches!(refused(Size::constant(1e-6).unwrap()), SizeError::TooMany { .. }));
     assert!(matches!(
         refused(Size::function(|_| -1.0)),
-        SizeError::TooMany { .. } | SizeError::NotPositive { .. }
+        SizeError::TooFine { .. } | SizeError::NotPositive { .. }
     ));
     let spike = Size::function(|p| if p.distance(DVec2::new(0.5, 0.1)) < 0.3 { f64::NAN } else { 1.0 });
-    assert!(matches!(refused(spike), SizeError::TooMany { .. } | SizeError::NotPositive { .. }));
+    assert!(matches!(refused(spike), SizeError::TooFine { .. } | SizeError::NotPositive { .. }));
 }
 
 /// The length of the longest edge with an end so far from the origin.

@@ -40,8 +40,8 @@ impl OfGraph {
         let places: Vec<DVec2> = absent.iter().map(|&input| graph.points[input]).collect();
         let covers = covered(mesh, &places);
         let is_outside = |input| absent.binary_search(&input).is_ok_and(|at| !covers[at]);
-        let mut exempt = 0;
-        let mut outside = 0;
+        let spare = spare_places(mesh, graph, &domain);
+        let (mut exempt, mut outside, mut unused) = (0, 0, 0);
         let bounds = certificate.bounds;
         certificate.violations.retain(|violation| match *violation {
             Violation::AngleBelow { triangle, corner, corners, .. } => {
@@ -60,6 +60,12 @@ impl OfGraph {
                 exempt += usize::from(excused);
                 !excused
             }
+            Violation::UnusedVertex { vertex } => {
+                let at = mesh.vertices[vertex.index()];
+                let excused = spare.binary_search_by(|p| order(p, &at)).is_ok();
+                unused += usize::from(excused);
+                !excused
+            }
             Violation::InputMissing { input, .. } => {
                 let excused = is_outside(input);
                 outside += usize::from(excused);
@@ -69,6 +75,7 @@ impl OfGraph {
         });
         certificate.out_of_bounds -= exempt;
         certificate.inputs -= outside;
+        certificate.unused_vertices -= unused;
         Self { segments, exempt }
     }
 
@@ -114,6 +121,16 @@ impl OfGraph {
             format!("segment {segment} ({}, {}) ({}, {}): {reached}", a.x, a.y, b.x, b.y)
         })
     }
+}
+
+/// Where vertices need not be in use, as Triangle writes them: at points of the graph in holes
+/// and outside, and where there is another one that is in use. In order.
+fn spare_places(mesh: &TriMesh, graph: &Pslg, domain: &Wanted) -> Vec<DVec2> {
+    let carved = graph.points.iter().zip(&domain.carved_points).filter(|(_, carved)| **carved);
+    let used = mesh.triangles.iter().flatten().filter_map(|v| mesh.vertices.get(v.index()));
+    let mut places: Vec<DVec2> = carved.map(|(&p, _)| p).chain(used.copied()).collect();
+    places.sort_by(order);
+    places
 }
 
 /// Whether the angles at the other corners are within bounds.

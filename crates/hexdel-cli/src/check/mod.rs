@@ -66,6 +66,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
     // Of two files only one can be standard input.
     let of_input = if is_stream(&args.mesh) { Formats::default() } else { args.formats.clone() };
     let input = args.input.as_deref().map(|path| read_graph(path, &of_input)).transpose()?;
+    let input = input.map(|file| file.pslg);
     let mesh = read_mesh(&args.mesh, &args.formats)?;
     let graph = input.as_ref().filter(|input| !input.segments.is_empty());
     let usual = if graph.is_some() { LEAST_WITH_SEGMENTS } else { AngleBounds::EXTENDED.min_deg() };

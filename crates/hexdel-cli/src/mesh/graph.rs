@@ -1,29 +1,37 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
-use super::{Args, PslgName, limited, write};
+use super::{Args, Report, columns_line, limited, write};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
+use crate::triangle::Numbered;
+use hexdel::pslg::violations;
 use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
-use hexdel_io::{MarkedEdge, MeshView, Picture};
+use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile};
 use std::fmt::{Display, Write as _};
 
 /// Items of a list that are shown; the report has all.
 const SHOWN: usize = 10;
 
 /// Meshes a graph, writes the mesh and says what it is like.
-pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
+pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome {
     let mesher = mesher(args)?;
     if args.grid {
         warn("--grid: the hexagons behind the mesh of a graph are not shown");
     }
     let progress = Progress::new(args.quiet);
-    let made = mesher.triangulate_pslg_watched(input, &progress);
+    let made = mesher.triangulate_pslg_watched(&input.pslg, &progress);
     progress.finish();
-    let made = made.map_err(|source| args.failure(source))?;
+    let file = args.input.display().to_string();
+    let made = made.map_err(|source| failure(&file, source, &input.pslg))?;
+    if args.repair.is_none() {
+        warn_of_repairs(&made, &file);
+    }
     let finished = Finished {
         made: &made,
-        file: &args.input.display().to_string(),
+        input,
+        numbered: None,
+        file: &file,
         quiet: args.quiet,
         with_regions: !made.graph.regions.is_empty(),
         with_markers: true,
@@ -38,6 +46,10 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
 pub(crate) struct Finished<'a> {
     pub(crate) made: &'a PslgTriangulation,
     /// What it was made of.
+    pub(crate) input: &'a PointFile,
+    /// The same mesh with its vertices in another order, to be written in its place.
+    pub(crate) numbered: Option<&'a Numbered>,
+    /// The name of the file that it was made of.
     pub(crate) file: &'a str,
     pub(crate) quiet: bool,
     pub(crate) with_regions: bool,
@@ -55,21 +67,27 @@ impl Finished<'_> {
         let regions = self.with_regions.then(|| made.region_attributes());
         let edges: Vec<MarkedEdge> =
             made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
-        let mut view = MeshView::new(&made.mesh)
-            .with_input_indices(&inputs)
-            .with_marked_edges(&edges)
+        let mut view = match self.numbered {
+            Some(numbered) => numbered.view(),
+            None => MeshView::new(&made.mesh).with_input_indices(&inputs).with_marked_edges(&edges),
+        };
+        view = view
+            .with_seeds(&made.graph.holes, &made.graph.regions)
             .with_certificate(&made.certificate)
             .with_second_order(self.second_order)
             .with_picture(self.picture);
-        if self.with_markers {
+        if self.with_markers && self.numbered.is_none() {
             view = view.with_vertex_markers(&made.vertex_markers);
+        }
+        if !self.with_markers {
+            view.vertex_markers = None;
         }
         if let Some(regions) = &regions {
             view = view.with_regions(regions);
         }
-        write(outputs, &view, &report)?;
+        write(outputs, (&view, &made.mesh), &Report::new(Some(&report), self.input))?;
         if !self.quiet {
-            outputs.tell(&summary(made, &report))?;
+            outputs.tell(&summary(made, &report, self.input))?;
         }
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));
@@ -98,10 +116,7 @@ fn mesher(args: &Args) -> Result<Mesher, Failure> {
         mesher = mesher.max_area(area);
     }
     if let Some(way) = args.pslg {
-        mesher = mesher.segment_method(match way {
-            PslgName::Conform => SegmentMethod::Conform,
-            PslgName::Paper => SegmentMethod::Paper,
-        });
+        mesher = mesher.segment_method(way.method());
     }
     Ok(match args.repair {
         None => mesher,
@@ -110,8 +125,40 @@ fn mesher(args: &Args) -> Result<Mesher, Failure> {
     })
 }
 
+/// Faults of a kind that are told one by one.
+const TOLD: usize = 5;
+
+/// Why a graph was not meshed. Of segments at fault, all of a kind are told of.
+pub(crate) fn failure(file: &str, source: hexdel::Error, input: &Pslg) -> Failure {
+    let mut more = String::new();
+    if let hexdel::Error::Segments(first) = &source {
+        let kind = std::mem::discriminant(first);
+        let all = violations(input).into_iter().filter(|other| std::mem::discriminant(other) == kind);
+        let others: Vec<String> =
+            all.map(|other| other.to_string()).filter(|other| *other != first.to_string()).collect();
+        for other in others.iter().take(TOLD - 1) {
+            let _ = write!(more, "\n{file}: {other}");
+        }
+        if others.len() >= TOLD {
+            let _ = write!(more, "\nand {} more of the kind", others.len() + 1 - TOLD);
+        }
+    }
+    Failure::Mesh { file: file.to_owned(), source: Box::new(source), more }
+}
+
+/// Warns of what was done to a graph without being asked for.
+pub(crate) fn warn_of_repairs(made: &PslgTriangulation, file: &str) {
+    let repairs = made.report().repairs;
+    for repair in repairs.iter().take(SHOWN) {
+        warn(&format!("{file}: {repair}"));
+    }
+    if repairs.len() > SHOWN {
+        warn(&format!("{file}: and {} more of this kind", repairs.len() - SHOWN));
+    }
+}
+
 /// What is worth knowing at a glance.
-fn summary(made: &PslgTriangulation, report: &PslgReport<'_>) -> String {
+fn summary(made: &PslgTriangulation, report: &PslgReport<'_>, input: &PointFile) -> String {
     let (graph, c) = (&made.graph, &made.certificate);
     let mut text = String::new();
     // Writing to a string does not fail.
@@ -123,6 +170,7 @@ fn summary(made: &PslgTriangulation, report: &PslgReport<'_>) -> String {
         graph.holes.len(),
         graph.regions.len()
     );
+    text.push_str(&columns_line(input));
     list(&mut text, "repaired", &report.repairs);
     let without = made.edges_of_segment.iter().filter(|&&edges| edges == 0).count();
     let without = if without > 0 { format!(", {without} not in the domain") } else { String::new() };

@@ -10,13 +10,13 @@ use crate::plot::{Colour, PictureArgs};
 use crate::sizing::size_of_file;
 use clap::ValueEnum;
 use hexdel::geom::{BoundsError, Voronoi};
-use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg, Size};
-use hexdel_io::{MeshView, write_dual, write_mesh, write_mesh_to};
+use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg, SegmentMethod, Size, TriMesh};
+use hexdel_io::{MeshView, PointFile, write_dual, write_mesh, write_mesh_to};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-pub(crate) use graph::Finished;
+pub(crate) use graph::{Finished, failure, warn_of_repairs};
 
 /// Mesh points, or segments: angles of 43.9 to 90 degrees, at segments 30 to 90
 #[derive(clap::Args)]
@@ -31,9 +31,7 @@ pub(crate) use graph::Finished;
     after_help = "\
 Input: .node .poly .csv .tsv .xyz .txt .geojson .wkt .json .ron, - with --format
 Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ron .svg .png
-Examples:
-  hexdel mesh cities.csv -o cities.ele -o cities.svg --grid
-  hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
+Example: hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
 )]
 pub(crate) struct Args {
     /// File of points or of a graph
@@ -118,6 +116,15 @@ enum PslgName {
     Paper,
 }
 
+impl PslgName {
+    fn method(self) -> SegmentMethod {
+        match self {
+            Self::Conform => SegmentMethod::Conform,
+            Self::Paper => SegmentMethod::Paper,
+        }
+    }
+}
+
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
     Templates,
@@ -155,7 +162,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
     let input = read_graph(&args.input, &args.formats)?;
-    let for_graphs = args.is_for_graphs(&input);
+    let for_graphs = args.is_for_graphs(&input.pslg);
     if args.picture.colour.is_some_and(Colour::needs_hexagons) {
         let of = match args.method() {
             _ if for_graphs => Some("the mesh of a graph"),
@@ -255,18 +262,50 @@ impl Args {
     }
 
     fn failure(&self, source: hexdel::Error) -> Failure {
-        Failure::Mesh { file: self.input.display().to_string(), source: Box::new(source) }
+        let file = self.input.display().to_string();
+        Failure::Mesh { file, source: Box::new(source), more: String::new() }
     }
 }
 
-/// Writes the mesh to all files, and its figures.
-fn write(outputs: &Outputs, view: &MeshView<'_>, report: &impl Serialize) -> Result<(), Failure> {
+/// The figures of a mesh, and what was found out about its input.
+#[derive(Serialize)]
+struct Report<'a, T> {
+    #[serde(flatten)]
+    figures: Option<&'a T>,
+    /// The columns that points were taken from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    columns: Option<String>,
+    /// What was wrong with the file and read all the same.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    input_warnings: Vec<String>,
+}
+
+impl<'a, T> Report<'a, T> {
+    fn new(figures: Option<&'a T>, input: &PointFile) -> Self {
+        let columns = input.columns.as_ref().map(ToString::to_string);
+        let input_warnings = input.warnings.iter().map(ToString::to_string).collect();
+        Self { figures, columns, input_warnings }
+    }
+}
+
+/// The line of a summary that says which columns were taken.
+fn columns_line(input: &PointFile) -> String {
+    input.columns.as_ref().map_or_else(String::new, |columns| format!("columns    {columns}\n"))
+}
+
+/// Writes the mesh to all files, and its figures. The dual is that of the mesh beside
+/// the view, of which every vertex is a corner.
+fn write(
+    outputs: &Outputs,
+    (view, mesh): (&MeshView<'_>, &TriMesh),
+    report: &impl Serialize,
+) -> Result<(), Failure> {
     let report = serde_json::to_string_pretty(report)? + "\n";
     outputs.write(|content, path| match content {
         Content::Mesh => Ok(write_mesh(path, view)?),
         Content::Dual => {
             let at_fault = |source| Failure::Voronoi { file: path.display().to_string(), source };
-            Ok(write_dual(path, view.mesh, &Voronoi::new(view.mesh).map_err(at_fault)?)?)
+            Ok(write_dual(path, mesh, &Voronoi::new(mesh).map_err(at_fault)?)?)
         }
         _ => {
             std::fs::write(path, &report).map_err(|source| Failure::Output { file: path.to_owned(), source })

@@ -1,20 +1,25 @@
 //! Points in a hexagon.
 
-use super::{Args, limited, warn_ignored, write};
+use super::{Args, Report, columns_line, limited, warn_ignored, write};
 use crate::exit::{Outcome, Verdict};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
-use hexdel::{Pslg, Size, Triangulation};
-use hexdel_io::{ColourBy, MeshView, Overlay};
+use hexdel::{Size, Triangulation};
+use hexdel_io::{ColourBy, MeshView, Overlay, PointFile};
 use std::fmt::Write as _;
 
 /// Meshes points, writes the mesh and says what it is like.
-pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
+pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
+    let input = &file.pslg;
     warn_ignored(args, &[(input.holes.len(), "holes"), (input.regions.len(), "regions")]);
     let mut mesher = args.mesher();
     if args.min_angle.is_some() || args.max_angle.is_some() {
         mesher = mesher.bounds(args.bounds(args.method().bounds())?);
+    }
+    if let Some(way) = args.pslg {
+        // An error that says so.
+        mesher = mesher.segment_method(way.method());
     }
     let mut size = args.sizing()?;
     if let Some(area) = args.max_area {
@@ -47,16 +52,17 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &Pslg) -> Outcome {
         .with_certificate(&made.certificate)
         .with_picture(picture);
     // The dual in it takes more memory than the mesh.
-    write(outputs, &view, &args.report.is_some().then(|| made.report()))?;
+    let report = args.report.is_some().then(|| made.report());
+    write(outputs, (&view, &made.mesh), &Report::new(report.as_ref(), file))?;
     if !args.quiet {
         let distinct = inputs.iter().flatten().count();
-        outputs.tell(&summary(&made, distinct))?;
+        outputs.tell(&summary(&made, distinct, file))?;
     }
     Ok(if made.budget_spent { Verdict::Spent } else { Verdict::Holds })
 }
 
 /// What is worth knowing at a glance.
-fn summary(made: &Triangulation, distinct: usize) -> String {
+fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
     let certificate = &made.certificate;
     let mut text = String::new();
     let duplicates = match certificate.inputs - distinct {
@@ -68,13 +74,14 @@ fn summary(made: &Triangulation, distinct: usize) -> String {
     // Writing to a string does not fail.
     let _ = write!(
         text,
-        "points     {}{duplicates}\n\
+        "points     {}{duplicates}\n{}\
          mesh       {} vertices, {} triangles, {} levels\n\
          angles     {:.4} to {:.4} degrees\n\
          certified  angles within {:.4} to {}, Delaunay, one disk, every point a vertex{}\n\
          {spent}\
          seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
         certificate.inputs,
+        columns_line(file),
         certificate.vertices,
         certificate.triangles,
         made.max_level,

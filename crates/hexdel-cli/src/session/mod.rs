@@ -2,13 +2,13 @@
 
 mod command;
 
-use crate::exit::{Failure, Outcome, Verdict, print};
+use crate::exit::{Failure, Outcome as Ending, Verdict, print};
 use crate::outputs::{Content, Outputs};
 use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
 use hexdel::optimize::live::Delta;
-use hexdel::{AnySession, Mesher, Method, PointId, Size};
-use hexdel_io::{MarkedEdge, MeshView, write_mesh};
+use hexdel::{AnySession, DVec2, Mesher, Method, Outcome, PointId, Size};
+use hexdel_io::{Columns, MarkedEdge, MeshView, PointFile, PointReader, write_mesh};
 use serde_json::{Value, json};
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
     open FILE                    begin with the points of a file, or its graph\n  \
     domain X Y RADIUS            begin with an empty hexagon\n  \
     load FILE                    go on with a saved session\n  \
-    insert X Y [X Y ..]          put points in, all or none\n  \
+    insert X Y [X Y ..]          put points in, all or none; first of all, the domain follows\n  \
     insert-file FILE             the same with the points of a file\n  \
     remove N [N ..]              take points out, by the numbers insert gave\n  \
     size H | none                the longest edges wanted, everywhere\n  \
@@ -30,18 +30,20 @@ use std::path::{Path, PathBuf};
     size file FILE               .. of a raster (.asc) or of points with sizes\n  \
     size gradation G             growth per distance of all that follows\n  \
     refine X Y X Y K             halve the edges in a box K times\n  \
-    grow                         double the domain\n  \
     points, counts, certify      what there is\n  \
     mesh FILE, save FILE         write the mesh; the session, to be loaded\n  \
-    undo, quit                   take the last change back; end\n\n\
+    grow, undo, quit             double the domain; take the last change back; end\n\n\
     Answers have \"ok\", and what changed or the \"error\", which changes nothing; exits with 2 then.\n\n\
     Example:\n  \
-    printf 'domain 0 0 1\\ninsert .1 .2 .3 .1\\nmesh m.vtu\\n' | hexdel session"
+    printf 'insert .1 .2 .3 .1\\ninsert 2 1\\nmesh m.vtu\\n' | hexdel session"
 )]
 pub(crate) struct Args {
     /// The file to begin with, as by `open`
     #[arg(hide = true)]
     file: Option<PathBuf>,
+    /// Columns of x and y in tables that are read
+    #[arg(long, value_name = "X,Y")]
+    columns: Option<Columns>,
     /// Answer with counts of what changed in the place of lists
     #[arg(long)]
     brief: bool,
@@ -59,10 +61,11 @@ enum SessionMethod {
 }
 
 /// Runs the command.
-pub(crate) fn run(args: &Args) -> Outcome {
+pub(crate) fn run(args: &Args) -> Ending {
     let mut talk = Talk {
         session: None,
         brief: args.brief,
+        columns: args.columns.clone(),
         method: match args.method {
             SessionMethod::Compact => Method::Compact,
             SessionMethod::Templates => Method::Templates,
@@ -107,6 +110,7 @@ type Refusal = Box<dyn std::error::Error>;
 struct Talk {
     session: Option<AnySession>,
     brief: bool,
+    columns: Option<Columns>,
     method: Method,
     /// Points that were read, which no mesh may replace.
     inputs: Vec<PathBuf>,
@@ -116,9 +120,10 @@ impl Talk {
     fn answer(&mut self, command: Command) -> Result<Value, Refusal> {
         match command {
             Command::Open(path) => {
-                let graph = hexdel_io::read_points(&path)?;
+                let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
                 self.inputs.push(path);
-                self.begin(AnySession::new(&graph, &Mesher::new().method(self.method))?)
+                let answer = self.begin(AnySession::new(&file.pslg, &Mesher::new().method(self.method))?)?;
+                Ok(with_file(answer, &file))
             }
             Command::Domain(centre, radius) => self.begin(AnySession::empty(centre, radius, self.method)?),
             Command::Load(path) => {
@@ -126,8 +131,22 @@ impl Talk {
                     .map_err(|source| Failure::Output { file: path.clone(), source })?;
                 self.begin(AnySession::from_ron(&text)?)
             }
+            Command::Insert(points) if self.session.is_none() => self.begin_with(&points),
+            Command::InsertFile(path) if self.session.is_none() => {
+                let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
+                self.inputs.push(path);
+                Ok(with_file(self.begin_with(&file.pslg.points)?, &file))
+            }
             other => self.answer_in_session(other),
         }
+    }
+
+    /// Begins with points, in a domain that follows them.
+    fn begin_with(&mut self, points: &[DVec2]) -> Result<Value, Refusal> {
+        let (session, outcome) = AnySession::begin(points, &Mesher::new().method(self.method))?;
+        let answer = changed_answer(&session, &outcome, self.brief);
+        self.session = Some(session);
+        Ok(answer)
     }
 
     fn begin(&mut self, session: AnySession) -> Result<Value, Refusal> {
@@ -137,13 +156,15 @@ impl Talk {
 
     fn answer_in_session(&mut self, command: Command) -> Result<Value, Refusal> {
         let brief = self.brief;
-        let session = self.session.as_mut().ok_or("no session yet: begin with open, domain or load")?;
+        let session =
+            self.session.as_mut().ok_or("no session yet: begin with insert, open, domain or load")?;
         let outcome = match command {
             Command::Insert(points) => session.insert_all(&points)?,
             Command::InsertFile(path) => {
-                let points = hexdel_io::read_points(&path)?.points;
+                let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
                 self.inputs.push(path);
-                session.insert_all(&points)?
+                let outcome = session.insert_all(&file.pslg.points)?;
+                return Ok(with_file(changed_answer(session, &outcome, brief), &file));
             }
             Command::Remove(ids) => session.remove(&ids.into_iter().map(PointId).collect::<Vec<_>>())?,
             Command::Size(size) => {
@@ -165,12 +186,31 @@ impl Talk {
             Command::Save(path) => return save(session, &path),
             _ => return Ok(counts(session)),
         };
-        let mut answer = counts(session);
-        answer["points_inserted"] = outcome.points.iter().map(|p| p.0).collect();
-        answer["remeshed"] = outcome.remeshed.into();
-        answer["delta"] = if brief { brief_delta(&outcome.delta) } else { json!(outcome.delta) };
-        Ok(answer)
+        Ok(changed_answer(session, &outcome, brief))
     }
+}
+
+/// The answer to a command that has changed the mesh.
+fn changed_answer(session: &AnySession, outcome: &Outcome, brief: bool) -> Value {
+    let mut answer = counts(session);
+    answer["points_inserted"] = outcome.points.iter().map(|p| p.0).collect();
+    answer["remeshed"] = outcome.remeshed.into();
+    answer["delta"] = if brief { brief_delta(&outcome.delta) } else { json!(outcome.delta) };
+    if let Some((centre, radius)) = outcome.domain {
+        answer["domain"] = json!({ "centre": [centre.x, centre.y], "radius": radius });
+    }
+    answer
+}
+
+/// With what was found out about a file that was read.
+fn with_file(mut answer: Value, file: &PointFile) -> Value {
+    if let Some(columns) = &file.columns {
+        answer["columns"] = columns.to_string().into();
+    }
+    if !file.warnings.is_empty() {
+        answer["warnings"] = file.warnings.iter().map(ToString::to_string).collect();
+    }
+    answer
 }
 
 fn counts(session: &AnySession) -> Value {

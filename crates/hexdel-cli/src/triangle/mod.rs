@@ -2,31 +2,37 @@
 //!
 //! What each switch does is in `docs/triangle-users.md`.
 
+mod numbered;
 mod switches;
 
 use crate::exit::{Failure, Outcome};
-use crate::mesh::Finished;
+use crate::input::warn_of;
+use crate::mesh::{Finished, failure, warn_of_repairs};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
-use hexdel::{AngleBounds, Domain, Mesher, Method};
+use hexdel::{AngleBounds, Domain, Mesher, Method, Pslg};
+use hexdel_io::PointReader;
 use std::path::{Path, PathBuf};
 use switches::Switches;
+
+pub(crate) use numbered::Numbered;
 
 /// Mesh with Triangle's switches and file names
 #[derive(clap::Args)]
 #[command(
     override_usage = "hexdel triangle [-SWITCHES] FILE",
     after_help = "\
-FILE is a .node, or with -p a .poly. Written are FILE.1.node, .1.ele and, with -p, .1.poly.
-  -p        mesh the graph of a .poly inside of its outlines, not the hull of points
+FILE is a .node or .poly. Written are FILE.1.node, .1.ele and, of a .poly, .1.poly. Input points
+are first and in order, numbers start as in the input. Crossing segments are divided.
+  -p        FILE is a .poly though its name does not say so
   -q30      no angle below 30 degrees, which is so at segments anyway
   -a0.1     no triangle larger than 0.1; -a alone takes the areas of regions in the .poly
   -A        triangles carry the attributes of their regions
   -c        mesh the convex hull of the graph
   -e -n -v  write edges, neighbours, the Voronoi dual;  -g  write an .off
   -o2       triangles with nodes on the middles of their edges
-  -B -P     no markers, no .poly
-  -Q        say nothing;  -D -z -C -j -i -F -l -s -X -V  change nothing
+  -B -P -j  no markers, no .poly, no points that are no vertices;  -z  numbers from 0
+  -Q        say nothing but warnings;  -D -C -i -F -l -s -X -V  change nothing
 Not possible here: -Y -S -r -u -I -N -E. docs/triangle-users.md says why, and all else.
 
 Examples:
@@ -43,10 +49,15 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Outcome {
     let (given, files): (Vec<&str>, Vec<&str>) =
         args.arguments.iter().map(String::as_str).partition(|a| a.starts_with('-') && *a != "-");
-    let switches = Switches::parse(given)?;
+    let mut switches = Switches::parse(given)?;
     let [file] = files[..] else {
         return Err(Failure::Switch { switch: files.join(" "), why: "one file is needed" });
     };
+    match Path::new(file).extension().and_then(|e| e.to_str()) {
+        Some(e) if e.eq_ignore_ascii_case("poly") => switches.graph = true,
+        Some(e) if e.eq_ignore_ascii_case("ele") => switches.refuse_refinement()?,
+        _ => {}
+    }
     let names = Names::of(file, &switches);
     let mut outputs = Outputs::default();
     outputs.protect_input(&names.input);
@@ -57,22 +68,21 @@ pub(crate) fn run(args: &Args) -> Outcome {
             outputs.add_mesh(&path)?;
         }
     }
-    let mut graph = hexdel_io::read_points(&names.input)?;
-    if !switches.graph {
-        graph = hexdel::Pslg { segments: Vec::new(), segment_markers: Vec::new(), ..graph };
-        graph.holes.clear();
-        graph.regions.clear();
-    }
-    for region in graph.regions.iter_mut().filter(|_| !switches.region_areas) {
-        region.max_area = None;
-    }
+    let input = PointReader::new().read(&names.input)?;
+    warn_of(&input);
+    let graph = wanted_of(&input.pslg, &switches);
     let progress = Progress::new(switches.quiet);
     let made = mesher(&switches, graph.segments.is_empty())?.triangulate_pslg_watched(&graph, &progress);
     progress.finish();
     let file = names.input.display().to_string();
-    let made = made.map_err(|source| Failure::Mesh { file: file.clone(), source: Box::new(source) })?;
+    let made = made.map_err(|source| failure(&file, source, &graph))?;
+    warn_of_repairs(&made, &file);
+    let first_number = if switches.from_zero { 0 } else { input.first_number };
+    let numbered = Numbered::new(&made, &input, switches.without_unused, first_number);
     let finished = Finished {
         made: &made,
+        input: &input,
+        numbered: Some(&numbered),
         file: &file,
         quiet: switches.quiet,
         with_regions: switches.regions,
@@ -83,8 +93,27 @@ pub(crate) fn run(args: &Args) -> Outcome {
     finished.write(&outputs)
 }
 
+/// What of the input is to be meshed.
+fn wanted_of(input: &Pslg, switches: &Switches) -> Pslg {
+    let mut graph = input.clone();
+    if !switches.graph {
+        graph.segments.clear();
+        graph.segment_markers.clear();
+        graph.holes.clear();
+        graph.regions.clear();
+    }
+    for region in graph.regions.iter_mut().filter(|_| !switches.region_areas) {
+        region.max_area = None;
+    }
+    graph
+}
+
 fn mesher(switches: &Switches, points: bool) -> Result<Mesher, Failure> {
     let mut mesher = Mesher::new().method(Method::Compact);
+    if !points {
+        // Triangle divides segments where they meet, and so do we, with a word on each.
+        mesher = mesher.repair();
+    }
     if switches.hull || points {
         mesher = mesher.domain(Domain::Hull);
     }
@@ -153,6 +182,7 @@ mod tests {
     fn names_are_those_of_triangle() {
         for (file, switches, input, stem) in [
             ("box", "-p", "box.poly", "box.1"),
+            ("box.1", "-pq", "box.1.poly", "box.2"),
             ("a/box.poly", "-p", "a/box.poly", "a/box.1"),
             ("box.1.poly", "-p", "box.1.poly", "box.2"),
             ("box.9", "", "box.9.node", "box.10"),

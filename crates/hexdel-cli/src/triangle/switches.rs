@@ -34,12 +34,15 @@ pub(super) struct Switches {
     pub(super) without_poly: bool,
     /// `-Q`
     pub(super) quiet: bool,
+    /// `-z`: numbers start at 0, whatever those of the input do.
+    pub(super) from_zero: bool,
+    /// `-j`: points that are no vertices are not written.
+    pub(super) without_unused: bool,
 }
 
 /// Switches that ask for what is so anyway, or choose between ways to the same:
-/// Delaunay (`D`), from zero (`z`), all checks (`C`), vertices in use only
-/// (`j`), algorithms (`i F l s X`), and more to read (`V`).
-const WITHOUT_EFFECT: &str = "DzCjiFlsXV";
+/// Delaunay (`D`), all checks (`C`), algorithms (`i F l s X`), and more to read (`V`).
+const WITHOUT_EFFECT: &str = "DCiFlsXV";
 
 /// What cannot be.
 const REFUSED: [(char, &str); 8] = [
@@ -71,6 +74,11 @@ impl Switches {
         Ok(switches)
     }
 
+    /// Refuses what a mesh as input asks for.
+    pub(super) fn refuse_refinement(&mut self) -> Result<(), Failure> {
+        self.take('r', "")
+    }
+
     fn take(&mut self, letter: char, number: &str) -> Result<(), Failure> {
         let refuse = |why| Err(Failure::Switch { switch: format!("{letter}{number}"), why });
         match (letter, number) {
@@ -94,6 +102,8 @@ impl Switches {
             ('B', _) => self.without_markers = true,
             ('P', _) => self.without_poly = true,
             ('Q', _) => self.quiet = true,
+            ('z', _) => self.from_zero = true,
+            ('j', _) => self.without_unused = true,
             (letter, _) if WITHOUT_EFFECT.contains(letter) => {}
             (letter, _) => match REFUSED.iter().find(|(refused, _)| *refused == letter) {
                 Some((_, why)) => return refuse(why),
@@ -116,6 +126,12 @@ mod tests {
         assert_eq!((all.min_angle, all.max_area, all.region_areas), (Some(33.5), Some(0.1), true));
         assert!(all.graph && all.second_order && all.quiet && all.voronoi);
         assert_eq!(Switches::parse(["-q"]).unwrap(), Switches::default());
+    }
+
+    #[test]
+    fn numbers_and_unused_points() {
+        let switches = Switches::parse(["-pzj"]).unwrap();
+        assert!(switches.from_zero && switches.without_unused);
     }
 
     #[test]

@@ -89,6 +89,40 @@ fn sessions_of_templates_answer_the_same_commands() {
     assert!(triangles(1) < triangles(2) && triangles(2) < triangles(3) && triangles(4) < triangles(2));
 }
 
+/// `insert` may come first: the domain is around the points, and grows for others.
+#[test]
+fn a_session_may_begin_with_points() {
+    let bench = Bench::new();
+    bench.file("wells.csv", "name,lat,lon\nA,1,2\nB,3,9\n");
+    for method in ["compact", "templates"] {
+        let commands = "insert 500000 5200000 500010 5200005\ninsert 500900 5199000\ncertify\nundo\nundo\n\
+            save s.ron\nload s.ron\ninsert 500900 5199000\ncertify\n";
+        let (answers, code) = talk(&bench, &format!("session --method {method}"), commands);
+        let ok: Vec<bool> = answers.iter().map(|a| a["ok"] == true).collect();
+        // What it began with is no change to take back.
+        assert_eq!(
+            (&ok[..], code),
+            (&[true, true, true, true, false, true, true, true, true][..], 2),
+            "{answers:?}"
+        );
+        assert_eq!(answers[0]["points_inserted"], serde_json::json!([0, 1]));
+        let added = answers[0]["delta"]["triangles_added"].as_array().unwrap().len();
+        assert_eq!(answers[0]["triangles"], added);
+        let radius = |i: usize| answers[i]["domain"]["radius"].as_f64().unwrap();
+        assert!(radius(0) < 100.0 && radius(1) > 1345.0, "{answers:?}");
+        assert!((radius(3) - radius(0)).abs() < 1e-6);
+        assert_eq!((&answers[2]["holds"], &answers[8]["holds"]), (&true.into(), &true.into()));
+        assert_eq!(answers[7]["points_inserted"], serde_json::json!([3]));
+    }
+    // A domain that was asked for stays as it is.
+    let (answers, _) = talk(&bench, "session", "domain 0 0 1\ninsert 5 5\n");
+    assert!(answers[1]["error"].as_str().unwrap().contains("does not grow by itself"), "{answers:?}");
+    let (answers, code) = talk(&bench, "session --brief", "insert-file wells.csv\npoints\n");
+    assert_eq!(code, 0, "{answers:?}");
+    assert_eq!(answers[0]["columns"], "x = lon (column 3), y = lat (column 2)");
+    assert_eq!(answers[1]["points"], serde_json::json!([[0, 2.0, 1.0], [1, 9.0, 3.0]]));
+}
+
 #[test]
 fn a_bad_command_is_answered_and_changes_nothing() {
     let bench = Bench::new();
@@ -111,8 +145,9 @@ fn a_bad_command_is_answered_and_changes_nothing() {
         "undo",
         "fly",
     ];
-    let (first, code) = talk(&bench, "session", "insert 0 0\n");
+    let (first, code) = talk(&bench, "session", "remove 0\n");
     assert_eq!((first[0]["ok"].as_bool(), code), (Some(false), 2));
+    assert!(first[0]["error"].as_str().unwrap().contains("begin with insert"), "{first:?}");
     let script = format!("open points.csv\nsave before.ron\n{}\nsave after.ron\n", bad.join("\n"));
     let (answers, code) = talk(&bench, "session", &script);
     assert_eq!((answers.len(), code), (bad.len() + 3, 2));

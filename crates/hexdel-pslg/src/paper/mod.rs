@@ -85,7 +85,7 @@ pub(crate) fn mesh(
         attempt += 1;
     };
     if net.alive().next().is_none() {
-        return Err(PslgError::NothingEnclosed);
+        return Err(PslgError::nothing_enclosed(input));
     }
     check(monitor)?;
     let wedges = Wedges::default();

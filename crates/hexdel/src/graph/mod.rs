@@ -3,6 +3,7 @@
 //! What makes the mesh is `hexdel-pslg`. Here the graph is repaired if asked
 //! for, the domain settled, and the finished mesh checked for its segments.
 
+mod attributes;
 mod boxed;
 mod repair;
 pub(crate) mod report;
@@ -81,6 +82,11 @@ pub(crate) struct GraphOptions {
 }
 
 impl GraphOptions {
+    /// What a session goes on with: its graph is repaired once, at the beginning.
+    pub(crate) fn for_session(self) -> Self {
+        Self { repair: None, ..self }
+    }
+
     /// An error if any option is set but for the domain that points have.
     pub(crate) fn refuse_for_points(&self) -> Result<(), Error> {
         let other_domain = self.domain.is_some_and(|d| d != Domain::Hexagon);

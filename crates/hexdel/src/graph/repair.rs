@@ -3,7 +3,7 @@
 use super::Tolerance;
 use crate::error::Error;
 use hexdel_geom::{DVec2, Pslg};
-use hexdel_pslg::{Feature, PslgError, RepairReport, ValidateError, repair};
+use hexdel_pslg::{Feature, LooseEnd, PslgError, RepairReport, ValidateError, drop_repeated, repair};
 
 /// The tolerance over the graph's size; a hundredth of the width of the thinnest
 /// hair that coordinates of that size resolve angles in would still do.
@@ -16,14 +16,18 @@ const OF_COORDINATE: f64 = 1e-10;
 /// A graph to be meshed.
 pub(crate) struct Repaired {
     pub(crate) graph: Pslg,
-    /// What was done, if anything was asked for.
+    /// What was done, if anything was asked for or segments were dropped.
     pub(crate) report: Option<RepairReport>,
 }
 
 impl Repaired {
     pub(super) fn new(given: &Pslg, tolerance: Option<Tolerance>) -> Result<Self, Error> {
         let tolerance = match tolerance {
-            None => return Ok(Self { graph: given.clone(), report: None }),
+            None => {
+                let dropped = drop_repeated(given).map(|(graph, report)| (graph, Some(report)));
+                let (graph, report) = dropped.unwrap_or_else(|| (given.clone(), None));
+                return Ok(Self { graph, report });
+            }
             Some(Tolerance::Relative) => relative(given),
             Some(Tolerance::Absolute(tolerance)) if tolerance.is_finite() && tolerance >= 0.0 => tolerance,
             Some(Tolerance::Absolute(tolerance)) => return Err(Error::InvalidTolerance { tolerance }),
@@ -60,6 +64,11 @@ impl Repaired {
         let error = match error {
             PslgError::TooClose { items, at, spacing } => {
                 PslgError::TooClose { items: items.map(item), at, spacing }
+            }
+            PslgError::NothingEnclosed { loose, count } => {
+                let given =
+                    |end: LooseEnd| LooseEnd { point: self.point(end.point).unwrap_or(end.point), ..end };
+                PslgError::NothingEnclosed { loose: loose.into_iter().map(given).collect(), count }
             }
             PslgError::NotRecovered { item: part, at } => PslgError::NotRecovered { item: item(part), at },
             other => other,

@@ -19,7 +19,8 @@ pub struct PslgTriangulation {
     /// What was meshed.
     pub graph: Pslg,
     /// What repair did, if it was asked for: all changes, and which points and
-    /// segments given have become which of the graph.
+    /// segments given have become which of the graph. Segments without length and those
+    /// that are the same as another are dropped without being asked for, and listed here.
     pub repairs: Option<RepairReport>,
     /// The vertex of each point of the graph; duplicates share one. `None` for a
     /// point in a hole or outside of the domain.

@@ -70,6 +70,33 @@ impl AnySession {
         })
     }
 
+    /// A session that begins with points, in a domain that follows them and grows by itself:
+    /// of templates if that is the mesher's method, else compact. The outcome has the whole
+    /// mesh as new.
+    ///
+    /// ```
+    /// use hexdel::{AnySession, DVec2, Mesher};
+    ///
+    /// let (mut session, first) = AnySession::begin(&[DVec2::new(5.0, 5.0)], &Mesher::new())?;
+    /// assert_eq!(first.points.len(), 1);
+    /// let more = session.insert(DVec2::new(500.0, 5.0))?;
+    /// assert!(more.domain.is_some_and(|(_, radius)| radius > 495.0));
+    /// # Ok::<(), hexdel::SessionError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Session::new`] and [`TemplateSession::new`].
+    pub fn begin(points: &[DVec2], mesher: &Mesher) -> Result<(Self, Outcome), SessionError> {
+        let session: Self = if mesher.method == Method::Templates {
+            TemplateSession::new(points, mesher)?.growing(true).into()
+        } else {
+            Session::new(points, mesher)?.growing(true).into()
+        };
+        let outcome = Outcome::of_beginning(&session.mesh(), session.domain());
+        Ok((session, outcome))
+    }
+
     /// A hexagonal domain without points: of templates if that is the method, else
     /// compact.
     ///

@@ -4,7 +4,7 @@ use super::PointId;
 use crate::error::Error;
 use crate::size::SizeError;
 use hexdel_geom::{Certificate, DVec2};
-use hexdel_optimize::live::StateError;
+use hexdel_optimize::live::{LiveError, StateError};
 use thiserror::Error as ThisError;
 
 /// Why a session did not do what was asked. The session is as it was.
@@ -18,7 +18,7 @@ pub enum SessionError {
         at: DVec2,
     },
     /// A point is not inside the domain.
-    #[error("({:?}, {:?}) lies outside of the domain of radius {radius:?}", at.x, at.y)]
+    #[error("({:?}, {:?}) lies outside of the domain of radius {radius:?}, which does not grow by itself", at.x, at.y)]
     Outside {
         /// The point.
         at: DVec2,
@@ -43,8 +43,8 @@ pub enum SessionError {
         /// The point.
         id: PointId,
     },
-    /// An option that sessions of graphs do not keep.
-    #[error("sessions of graphs know nothing of {option}")]
+    /// An option that sessions do not keep.
+    #[error("sessions know nothing of {option}")]
     NotForSessions {
         /// The option.
         option: &'static str,
@@ -105,6 +105,9 @@ pub enum SessionError {
     /// The whole was meshed anew, and that failed.
     #[error(transparent)]
     Mesh(#[from] Error),
+    /// A change of the mesh was not made.
+    #[error(transparent)]
+    Live(LiveError),
     /// Sizes by a function cannot be saved.
     #[error("a size given by a function cannot be saved")]
     CannotSave,

@@ -5,7 +5,7 @@ use super::{PointId, Session, SessionError, SessionMesh};
 use crate::error::Error;
 use crate::graph::Domain;
 use crate::graph::result::PslgTriangulation;
-use crate::mesher::{Mesher, Method};
+use crate::mesher::Mesher;
 use hexdel_geom::{Certificate, Circle, smallest_enclosing_circle};
 use hexdel_geom::{CertifyOptions, DVec2, Pslg, SegmentCheck, VertexId, certify, check_segments};
 use hexdel_optimize::live::{LiveMesh, Snapshot};
@@ -37,6 +37,9 @@ pub(super) struct Frame {
     /// Whether the domain is what segments enclose, which does not depend on points.
     #[serde(default)]
     inside: bool,
+    /// Whether it is the convex hull, which points in it do not change.
+    #[serde(default)]
+    hull: bool,
 }
 
 impl Frame {
@@ -202,7 +205,7 @@ impl Session {
     /// does not keep its bounds, [`SessionError::Size`], [`SessionError::NotForSessions`],
     /// [`SessionError::Duplicate`].
     pub fn with_segments(graph: &Pslg, mesher: &Mesher) -> Result<Self, SessionError> {
-        let mesher = mesher.clone().method(Method::Compact);
+        let mesher = super::compact(mesher)?;
         let options = mesher.pslg_options(Domain::Inside);
         if options.max_area.is_some() || graph.regions.iter().any(|r| r.max_area.is_some()) {
             return Err(SessionError::NotForSessions { option: "a limit on areas" });
@@ -215,7 +218,7 @@ impl Session {
             let (whole, divided) = (made.graph.clone(), Divided::none(&made.graph));
             Self::of_graph(&made, whole, &divided, mesher)
         };
-        let (_, size) = mesher.for_session();
+        let size = mesher.size.clone();
         match begin(&mesher) {
             // What the size asks for has not come about at once: point by point it may.
             Err(SessionError::NotCertified { .. }) if size.is_some() => {
@@ -259,7 +262,7 @@ impl Session {
             live.insert(at).map_err(|_| SessionError::NoRoom { at })?;
         }
         live.take_step();
-        let (effort, size) = mesher.for_session();
+        let size = mesher.size.clone();
         live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
         let (points, of_slot) = slots_of(made, &divided.ids)?;
         let circle = smallest_enclosing_circle(&made.mesh.vertices);
@@ -267,13 +270,15 @@ impl Session {
         let in_fans = rows.lines.len() - rows.fans;
         let inside = made.domain == Domain::Inside;
         let (lines, segment_of_line) = (rows.lines, rows.segment_of_line);
-        let frame = Frame { graph: whole, lines, segment_of_line, in_fans, inside };
+        let hull = made.domain == Domain::Hull;
+        let frame = Frame { graph: whole, lines, segment_of_line, in_fans, inside, hull };
         let session = Self {
             live,
             bounds: options.far,
-            effort,
+            options: mesher.for_session(),
             centre: circle.center,
             radius: circle.radius,
+            grows: false,
             size,
             points,
             of_slot,
@@ -292,8 +297,17 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError`] where that is not made, does not hold, or has no place for them.
+    /// [`SessionError`] where that is not made, does not hold, or has no place for them;
+    /// [`SessionError::NotForSessions`] in a box or hexagon, which would be another one.
     pub(super) fn anew_with_segments(&self, frame: &Frame, new: &[DVec2]) -> Result<Self, SessionError> {
+        let domain = match (frame.inside, frame.hull) {
+            (true, _) => Domain::Inside,
+            (_, true) => Domain::Hull,
+            _ => {
+                let option = "meshing a graph anew in a box or hexagon around it";
+                return Err(SessionError::NotForSessions { option });
+            }
+        };
         let first = self.points.len() as u64;
         let mut divider = Divider::of(&frame.graph, |i| self.points[i].is_some());
         let olds = self.points().filter(|p| p.0.0 as usize >= frame.graph.points.len());
@@ -305,8 +319,7 @@ impl Session {
         }
         let (graph, divided) = divider.divided();
         let [near, far] = self.live.bounds();
-        let mesher = Mesher::new().method(Method::Compact).effort(self.effort);
-        let mesher = mesher.bounds(far).near_bounds(near).domain(Domain::Inside);
+        let mesher = self.options.clone().bounds(far).near_bounds(near).domain(domain);
         let mesher = self.size.iter().fold(mesher, |m, size| m.size(size.clone()));
         let made = mesher.triangulate_pslg(&graph)?;
         let anew = Self::of_graph(&made, frame.graph.clone(), &divided, &mesher)?;

@@ -8,23 +8,26 @@
 
 mod any;
 mod divide;
+mod domain;
 mod error;
 mod graph;
 mod outcome;
 mod remesh;
 mod saved;
 mod templates;
+mod workers;
 
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
 use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
 use hexdel_optimize::live::{LiveError, LiveMesh, Step};
-use hexdel_optimize::{Effort, Sizing, kinds_of};
+use hexdel_optimize::{Sizing, kinds_of};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 pub use any::AnySession;
+use domain::reaching;
 pub use error::SessionError;
 use graph::Frame;
 pub use graph::SessionCheck;
@@ -66,9 +69,12 @@ const BATCH: usize = 64;
 pub struct Session {
     live: LiveMesh,
     bounds: AngleBounds,
-    effort: Effort,
+    /// What the whole is meshed anew with, but for size and domain.
+    options: Mesher,
     centre: DVec2,
     radius: f64,
+    /// Whether the domain grows for points outside of it.
+    grows: bool,
     size: Option<Size>,
     /// The slot of each point, none for removed ones.
     points: Vec<Option<u32>>,
@@ -125,9 +131,10 @@ impl Session {
         Ok(Self {
             live,
             bounds,
-            effort: Effort::Standard,
+            options: Mesher::new(),
             centre,
             radius,
+            grows: false,
             size: None,
             points: Vec::new(),
             of_slot: BTreeMap::new(),
@@ -143,9 +150,9 @@ impl Session {
     /// # Errors
     ///
     /// [`SessionError::Mesh`], [`SessionError::Duplicate`] by the number of the
-    /// earlier point.
+    /// earlier point, [`SessionError::NotForSessions`] for the simple method.
     pub fn new(points: &[DVec2], mesher: &Mesher) -> Result<Self, SessionError> {
-        let mesher = mesher.clone().method(Method::Compact);
+        let mesher = compact(mesher)?;
         let made = mesher.triangulate(points)?;
         let inputs = made.input_of_vertex();
         for (i, v) in made.vertex_of_input.iter().enumerate() {
@@ -157,14 +164,15 @@ impl Session {
         let slots: Vec<u32> = made.vertex_of_input.iter().map(|v| v.index() as u32).collect();
         let mut live =
             LiveMesh::new(made.mesh, &kinds, made.certificate.bounds).map_err(crate::Error::Optimize)?;
-        let (effort, size) = mesher.for_session();
+        let size = mesher.size.clone();
         live.assume_sizing(size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
         Ok(Self {
             live,
             bounds: made.certificate.bounds,
-            effort,
+            options: mesher.for_session(),
             centre: made.patch.centre,
             radius: made.patch.radius,
+            grows: false,
             size,
             of_slot: slots.iter().enumerate().map(|(i, &v)| (v, PointId(i as u64))).collect(),
             points: slots.into_iter().map(Some).collect(),
@@ -172,6 +180,23 @@ impl Session {
             changed: 0,
             history: VecDeque::new(),
         })
+    }
+
+    /// Whether the domain grows by itself for points outside of it, which is not so unless it
+    /// was said. That of a graph does not.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Session};
+    /// let mut session = Session::new(&[DVec2::ZERO, DVec2::X], &Mesher::new())?.growing(true);
+    /// let far = session.insert(DVec2::new(9.0, 7.0))?;
+    /// let (_, radius) = far.domain.unwrap();
+    /// assert!(radius > 11.0 && session.certificate().holds());
+    /// # Ok::<(), hexdel::SessionError>(())
+    /// ```
+    #[must_use]
+    pub fn growing(mut self, grows: bool) -> Self {
+        self.grows = grows;
+        self
     }
 
     /// Puts a point in.
@@ -187,8 +212,8 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError`] for a point that is not finite, outside, there already
-    /// or too close to another, or for which there is no room within the bounds.
+    /// [`SessionError`] for a point that is not finite, outside of a domain that does not
+    /// [grow](Self::growing), there already or too close to another, or for which there is no room within the bounds.
     ///
     /// # Complexity
     ///
@@ -200,6 +225,12 @@ impl Session {
     pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
         let before = self.points.len();
         let present = self.of_slot.len();
+        if self.grows
+            && self.frame.is_none()
+            && let Some(radius) = reaching((self.centre, self.radius), points)
+        {
+            return self.insert_by_growing(points, radius);
+        }
         if self.frame.is_none() && points.len() >= BATCH && points.len() >= present {
             return self.insert_by_remeshing(points);
         }
@@ -358,7 +389,10 @@ impl Session {
                 Err(SizeError::Unreached { at, length }.into())
             }
             Err(LiveError::TooMany { triangles }) => Err(SizeError::TooMany { triangles }.into()),
-            Err(_) => Err(SizeError::Unreached { at: self.centre, length: self.radius }.into()),
+            Err(other) => {
+                self.live.abandon();
+                Err(SessionError::Live(other))
+            }
         }
     }
 
@@ -440,9 +474,10 @@ impl Session {
                 self.of_slot.insert(slot, id);
             }
         }
+        let domain = (undo.radius != self.radius).then_some((self.centre, undo.radius));
         (self.size, self.radius, self.changed) = (undo.size, undo.radius, undo.changed);
         self.live.assume_sizing(self.size.clone().map(|s| Arc::new(s) as Arc<dyn Sizing>));
-        Ok(Outcome { points: Vec::new(), delta, remeshed })
+        Ok(Outcome { points: Vec::new(), delta, remeshed, domain })
     }
 
     /// Ends a call whose points come after `before`; undoing it restores the
@@ -452,7 +487,7 @@ impl Session {
         let (radius, changed) = (self.radius, self.changed);
         self.push(Undo { mesh: Before::Step(step), points, size, radius, changed });
         let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
-        Outcome { points, delta, remeshed: false }
+        Outcome { points, delta, remeshed: false, domain: None }
     }
 
     fn push(&mut self, undo: Undo) {
@@ -524,6 +559,14 @@ impl Session {
         let options = CertifyOptions { bounds: self.bounds, inputs: Some(&points), ..Default::default() };
         certify(&self.live.snapshot().mesh, &options)
     }
+}
+
+/// A mesher as a compact session takes it.
+fn compact(mesher: &Mesher) -> Result<Mesher, SessionError> {
+    if mesher.method == Method::Simple {
+        return Err(SessionError::NotForSessions { option: "the simple method" });
+    }
+    Ok(mesher.clone().method(Method::Compact))
 }
 
 /// Why a point was not put in.

@@ -1,6 +1,6 @@
 //! What a session answers.
 
-use hexdel_geom::{TriMesh, VertexId};
+use hexdel_geom::{DVec2, TriMesh, VertexId};
 use hexdel_optimize::live::Delta;
 use hexdel_pslg::SegmentEdge;
 
@@ -19,6 +19,22 @@ pub struct Outcome {
     pub delta: Delta,
     /// Whether the whole was meshed anew.
     pub remeshed: bool,
+    /// Centre and circumradius of the domain, if the call has changed it.
+    pub domain: Option<(DVec2, f64)>,
+}
+
+impl Outcome {
+    /// All of a session that has just begun with points.
+    pub(super) fn of_beginning(made: &SessionMesh, domain: (DVec2, f64)) -> Self {
+        let serial = |v: VertexId| made.vertex_serials[v.index()];
+        let triangles = made.triangle_serials.iter().zip(&made.mesh.triangles);
+        let mut delta = Delta::default();
+        delta.triangles_added = triangles.map(|(&t, corners)| (t, corners.map(serial))).collect();
+        let vertices = made.mesh.vertices.iter().copied();
+        delta.vertices_added = made.vertex_serials.iter().copied().zip(vertices).collect();
+        let points = made.points.iter().map(|p| p.0).collect();
+        Self { points, delta, remeshed: false, domain: Some(domain) }
+    }
 }
 
 /// A mesh as it stands.

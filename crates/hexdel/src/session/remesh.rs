@@ -1,7 +1,7 @@
 //! All points meshed anew, where changes nearby do not suffice.
 
 use super::{Before, Frame, Outcome, PointId, Session, SessionError, Undo};
-use crate::mesher::{Mesher, Method};
+use crate::placement::MAX_COORDINATE;
 use crate::size::Size;
 use crate::triangulation::Triangulation;
 use hexdel_geom::DVec2;
@@ -19,6 +19,10 @@ const MORE: f64 = 1.05;
 impl Session {
     /// Meshes all points anew, with more.
     pub(super) fn insert_by_remeshing(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
+        self.insert_anew(points, self.radius)
+    }
+
+    fn insert_anew(&mut self, points: &[DVec2], radius: f64) -> Result<Outcome, SessionError> {
         let (ids, mut all) = self.present();
         for &at in points {
             if !at.is_finite() {
@@ -28,7 +32,20 @@ impl Session {
         all.extend_from_slice(points);
         let first = self.points.len() as u64;
         let ids: Vec<PointId> = ids.into_iter().chain((first..).map(PointId).take(points.len())).collect();
-        self.remesh(&ids, &all, self.radius, self.size.clone())
+        self.remesh(&ids, &all, radius, self.size.clone())
+    }
+
+    /// Meshes all points anew, with more, in a domain at least as large as said.
+    pub(super) fn insert_by_growing(
+        &mut self,
+        points: &[DVec2],
+        radius: f64,
+    ) -> Result<Outcome, SessionError> {
+        let reach = self.centre.abs().max_element() + radius;
+        if reach >= MAX_COORDINATE {
+            return Err(SessionError::InvalidDomain { centre: self.centre, radius });
+        }
+        self.insert_anew(points, radius)
     }
 
     /// Meshes the graph anew, with more points, one of which found no room.
@@ -43,7 +60,9 @@ impl Session {
         }
         let anew = self.anew_with_segments(frame, points).map_err(|error| match error {
             // What has not come about, or is not taken for valid.
-            SessionError::Mesh(_) | SessionError::NotCertified { .. } => SessionError::NoRoom { at },
+            SessionError::Mesh(_)
+            | SessionError::NotCertified { .. }
+            | SessionError::NotForSessions { .. } => SessionError::NoRoom { at },
             error => error,
         })?;
         Ok(self.replace_graph(anew))
@@ -86,7 +105,7 @@ impl Session {
         radius: f64,
         size: Option<&Size>,
     ) -> Result<(LiveMesh, Vec<(PointId, u32)>), SessionError> {
-        let mesher = Mesher::new().method(Method::Compact).effort(self.effort).bounds(self.bounds);
+        let mesher = self.options.clone().bounds(self.bounds);
         let mesher = mesher.around(self.centre, radius);
         let mesher = size.iter().fold(mesher, |m, s| m.size((*s).clone()));
         let made = mesher.triangulate(points)?;
@@ -145,6 +164,7 @@ impl Session {
         let undo = olds.take(points.len()).enumerate().map(|(i, s)| (PointId(i as u64), s)).collect();
         self.points = points;
         self.of_slot = slots.into_iter().map(|(id, slot)| (slot, id)).collect();
+        let domain = (radius != self.radius).then_some((self.centre, radius));
         let olds = (std::mem::replace(&mut self.size, size), std::mem::replace(&mut self.radius, radius));
         let changed = std::mem::take(&mut self.changed);
         self.push(Undo {
@@ -155,7 +175,7 @@ impl Session {
             changed,
         });
         let points = (before..self.points.len()).map(|i| PointId(i as u64)).collect();
-        Outcome { points, delta, remeshed: true }
+        Outcome { points, delta, remeshed: true, domain }
     }
 }
 

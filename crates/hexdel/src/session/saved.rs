@@ -1,6 +1,7 @@
 //! Sessions as text (RON), to be continued.
 
 use super::{Frame, PointId, Session, SessionError};
+use crate::mesher::Mesher;
 use crate::placement::finest_spacing;
 use crate::size::{Size, SizeError};
 use crate::sized;
@@ -10,6 +11,7 @@ use hexdel_optimize::{Effort, SIZE_TOLERANCE, Sizing};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The version of the format.
 const VERSION: u32 = 1;
@@ -29,6 +31,34 @@ struct Document {
     /// Points that have come or gone since the mesh was compared with one made at once.
     #[serde(default)]
     changed: usize,
+    #[serde(default)]
+    grows: bool,
+    #[serde(default)]
+    options: SavedOptions,
+}
+
+/// Options that a session goes on with.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(super) struct SavedOptions {
+    budget: Option<Duration>,
+    threads: Option<usize>,
+    without_coarsening: bool,
+}
+
+impl SavedOptions {
+    pub(super) fn of(mesher: &Mesher) -> Self {
+        Self {
+            budget: mesher.budget,
+            threads: mesher.asked_threads(),
+            without_coarsening: mesher.without_coarsening,
+        }
+    }
+
+    pub(super) fn restored(self, effort: Effort) -> Mesher {
+        let mesher = Mesher::new().effort(effort).coarsening(!self.without_coarsening);
+        let mesher = self.budget.into_iter().fold(mesher, Mesher::budget);
+        self.threads.into_iter().fold(mesher, Mesher::threads)
+    }
 }
 
 impl Session {
@@ -44,7 +74,7 @@ impl Session {
         }
         let document = Document {
             version: VERSION,
-            effort: match self.effort {
+            effort: match self.options.effort {
                 Effort::Fast => 0,
                 Effort::Best => 2,
                 _ => 1,
@@ -56,6 +86,8 @@ impl Session {
             mesh: self.live.state(),
             frame: self.frame.as_deref().cloned(),
             changed: self.changed,
+            grows: self.grows,
+            options: SavedOptions::of(&self.options),
         };
         ron::to_string(&document).map_err(|e| SessionError::Unreadable { message: e.to_string() })
     }
@@ -92,12 +124,14 @@ impl Session {
         }
         let least = finest_spacing(DVec2::splat(centre.abs().max_element() + radius));
         size.as_ref().map_or(Ok(()), |size| size.check(least))?;
+        let effort = [Effort::Fast, Effort::Standard, Effort::Best][usize::from(document.effort.min(2))];
         let session = Self {
             bounds: live.bounds()[1],
             live,
-            effort: [Effort::Fast, Effort::Standard, Effort::Best][usize::from(document.effort.min(2))],
+            options: document.options.restored(effort),
             centre,
             radius,
+            grows: document.grows,
             size,
             points: document.points,
             of_slot,

@@ -66,6 +66,12 @@ pub enum SizeError {
         /// How many.
         triangles: f64,
     },
+    /// More levels of hexagons would be needed than there can be.
+    #[error("edges this short would take more than {levels} levels of hexagons")]
+    TooFine {
+        /// How many there can be.
+        levels: u8,
+    },
     /// Edges are longer than wanted and cannot be made shorter within the
     /// bounds.
     #[error("edges at ({:?}, {:?}) cannot be made shorter than {length:e}", at.x, at.y)]

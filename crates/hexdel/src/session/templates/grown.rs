@@ -2,6 +2,7 @@
 
 use super::cells::{Cells, Replaced, Serials, in_order};
 use super::patch::{is_free, settle};
+use crate::placement::CONFLICT_REACH;
 use crate::session::{PointId, SessionError};
 use crate::size::{Size, SizeError};
 use crate::sized::along_rim;
@@ -69,7 +70,7 @@ impl Grown {
         }
         loop {
             let mut refiner = Refiner::new(lattice, RuleSet::extended());
-            refiner.insert(points, &Unwatched).map_err(|error| too_close(&error, points))?;
+            refiner.insert(points, &Unwatched).map_err(|error| too_close(&error, &lattice, points))?;
             if Domain::around(refiner.grid(), 0).is_some_and(|around| around.radius <= radius) {
                 refiner.begin_changes();
                 let mut grown = Self::of(refiner, radius, ids, serials);
@@ -79,7 +80,7 @@ impl Grown {
                         grown.settle_all(points)?;
                         return Ok(grown);
                     }
-                    Err(Stuck::Levels(_)) => return Err(too_many().into()),
+                    Err(Stuck::Levels(_)) => return Err(too_fine().into()),
                     // What is too long touches the rim.
                     Err(_) => {
                         (lattice, radius) = finer(lattice, radius)?;
@@ -344,13 +345,14 @@ impl Grown {
 /// The lattice with half the spacing.
 fn finer(lattice: Lattice, radius: u32) -> Result<(Lattice, u32), SizeError> {
     if radius > Domain::MAX_RADIUS / 2 {
-        return Err(too_many());
+        // As many as a hexagon of twice the steps has.
+        return Err(SizeError::TooMany { triangles: 24.0 * f64::from(radius).powi(2) });
     }
     Ok((Lattice::new(lattice.origin(), lattice.spacing(1)), 2 * radius))
 }
 
-pub(super) fn too_many() -> SizeError {
-    SizeError::TooMany { triangles: f64::INFINITY }
+pub(super) fn too_fine() -> SizeError {
+    SizeError::TooFine { levels: Grid::MAX_LEVELS }
 }
 
 pub(super) fn certified(mesh: &TriMesh, points: &[DVec2]) -> Certificate {
@@ -359,13 +361,14 @@ pub(super) fn certified(mesh: &TriMesh, points: &[DVec2]) -> Certificate {
 }
 
 /// Points that no level tells apart.
-pub(super) fn too_close(error: &RefineError, points: &[DVec2]) -> SessionError {
-    let at = match error {
-        RefineError::TooClose { point, .. } => *point,
-        _ => DVec2::ZERO,
+pub(super) fn too_close(error: &RefineError, lattice: &Lattice, points: &[DVec2]) -> SessionError {
+    let RefineError::TooClose { point: at, .. } = *error else {
+        return too_fine().into();
     };
     let others = points.iter().copied().filter(|p| *p != at);
-    let to = others.min_by(|p, q| p.distance(at).total_cmp(&q.distance(at))).unwrap_or(at);
-    let distance = at.distance(to);
-    SessionError::TooClose { at, to, distance, least: 2.0 * distance }
+    let Some(to) = others.min_by(|p, q| p.distance(at).total_cmp(&q.distance(at))) else {
+        return too_fine().into();
+    };
+    let least = lattice.spacing(Grid::MAX_LEVELS - 2) * CONFLICT_REACH;
+    SessionError::TooClose { at, to, distance: at.distance(to), least }
 }

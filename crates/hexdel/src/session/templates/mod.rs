@@ -11,26 +11,32 @@
 //! | `laid` | where the lattice lies |
 //! | `patch` | what is new, made Delaunay and certified |
 //! | `saved` | sessions as text |
+//! | `view` | what there is: points, counts, the mesh |
 
 mod cells;
 mod grown;
 mod laid;
 mod patch;
 mod saved;
+mod view;
 
-use super::{Outcome, PointId, SessionError, SessionMesh, UNDO};
+use super::domain::{is_inside, reaching};
+use super::workers::Workers;
+use super::{Outcome, PointId, SessionError, UNDO};
 use crate::mesher::{Mesher, Method};
 use crate::placement::{CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
 use crate::sized::check_count;
 use cells::{Replaced, Serials};
-use grown::{Grown, Step, Stuck, certified};
-use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, closest_pair};
-use hexdel_grid::{Address, Grid, Lattice};
-use hexdel_refine::RefineError;
+use grown::{Grown, Step, Stuck};
+use hexdel_geom::{DVec2, TriMesh, closest_pair};
+use hexdel_grid::{Grid, Lattice};
 use laid::{Since, fitting};
 use std::collections::VecDeque;
 use std::sync::Arc;
+
+/// Radii are the same up to so much of them: they are products of spacings and steps.
+const SAME_RADIUS: f64 = 1e-9;
 
 /// Steps of level 0 to the corners of an empty domain.
 const STEPS: u32 = 3;
@@ -65,6 +71,11 @@ pub struct TemplateSession {
     points: Vec<Option<u32>>,
     present: usize,
     since: Since,
+    /// Whether the domain grows for points outside of it.
+    grows: bool,
+    /// The options it was made with, and the threads that work as they say.
+    options: Mesher,
+    workers: Workers,
     /// What undoes the last calls, the last one at the end.
     history: VecDeque<Undo>,
 }
@@ -99,7 +110,16 @@ impl TemplateSession {
         }
         let lattice = Lattice::new(centre, radius / f64::from(STEPS));
         let grown = Grown::new(lattice, STEPS, (&[], &[]), (Serials::default(), None))?;
-        Ok(Self { grown, points: Vec::new(), present: 0, since: Since::default(), history: VecDeque::new() })
+        Ok(Self {
+            grown,
+            points: Vec::new(),
+            present: 0,
+            since: Since::default(),
+            grows: false,
+            options: Mesher::new().method(Method::Templates),
+            workers: Workers::default(),
+            history: VecDeque::new(),
+        })
     }
 
     /// The mesh that a mesher makes of points, as a session. Its method is
@@ -108,25 +128,43 @@ impl TemplateSession {
     /// # Errors
     ///
     /// [`SessionError::Mesh`], [`SessionError::Duplicate`] by the number of the
-    /// earlier point.
+    /// earlier point, [`SessionError::NotForSessions`] for options that it does not keep.
     pub fn new(points: &[DVec2], mesher: &Mesher) -> Result<Self, SessionError> {
+        mesher.graph.refuse_for_points()?;
+        mesher.refuse_bounds_beyond(Method::Templates)?;
+        if mesher.without_coarsening {
+            return Err(SessionError::NotForSessions { option: "meshing without coarsening" });
+        }
         let (lattice, steps) = mesher.clone().method(Method::Templates).coarsest_lattice(points)?;
         check_distinct(points, 0)?;
         let ids: Vec<PointId> = (0..points.len() as u64).map(PointId).collect();
-        let size = mesher.for_session().1.map(Arc::new);
+        let size = mesher.size.clone().map(Arc::new);
         if let Some(size) = &size {
             check_size(size, lattice.origin(), f64::from(steps) * lattice.spacing(0))?;
         }
         let kept = (Serials::default(), size);
-        let grown = mesher.on_threads(|| Ok(Grown::new(lattice, steps, (&ids, points), kept)))??;
+        let options = mesher.for_session().method(Method::Templates);
+        let workers = Workers::new(options.asked_threads())?;
+        let grown = workers.run(|| Grown::new(lattice, steps, (&ids, points), kept))?;
         let orders = (0..points.len() as u32).map(Some).collect();
         Ok(Self {
             grown,
             points: orders,
             present: points.len(),
             since: Since::default(),
+            grows: false,
+            options,
+            workers,
             history: VecDeque::new(),
         })
+    }
+
+    /// Whether the domain grows by itself for points outside of it, which is not so unless it
+    /// was said.
+    #[must_use]
+    pub fn growing(mut self, grows: bool) -> Self {
+        self.grows = grows;
+        self
     }
 
     /// Puts a point in.
@@ -151,14 +189,30 @@ impl TemplateSession {
     /// to the rim than the hexagons along it allow has the whole meshed anew, with
     /// smaller ones there.
     pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
+        let workers = self.workers.clone();
+        workers.run(|| self.insert_all_here(points))
+    }
+
+    fn insert_all_here(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
         let before = self.points.len();
+        let wider = if self.grows { reaching(self.domain(), points) } else { None };
+        let (centre, radius) = self.domain();
         for &point in points {
-            self.check_point(point)?;
+            // What is outside lies near no point inside, or growing finds out.
+            if wider.is_none() || !point.is_finite() || is_inside(point - centre, radius) {
+                self.check_point(point)?;
+            }
         }
         check_distinct(points, before as u64)?;
         let ids: Vec<PointId> = (before as u64..).map(PointId).take(points.len()).collect();
         let present = self.present + points.len();
         let mut since = self.since.and_come(points.len(), present);
+        if let Some(radius) = wider {
+            let all = self.points_with(&ids, points);
+            check_distinct(&all.1, 0)?;
+            let lattice = fitting(self.grown_domain(radius)?, &all.1);
+            return self.mesh_anew(lattice, self.grown.size.clone(), all, (ids, since.and_lifted()));
+        }
         if since.is_look_due(present) {
             since.seen = 0;
             let (all_ids, all) = self.points_with(&ids, points);
@@ -183,8 +237,9 @@ impl TemplateSession {
                 let undo = ids.iter().map(|&id| (id, None)).collect();
                 Ok(self.done(step, undo, ids, since))
             }
-            Err(Stuck::Levels(RefineError::TooFine { .. })) => Err(grown::too_many().into()),
-            Err(Stuck::Levels(error)) => Err(grown::too_close(&error, &self.points_with(&ids, points).1)),
+            Err(Stuck::Levels(error)) => {
+                Err(grown::too_close(&error, &self.grown.lattice(), &self.points_with(&ids, points).1))
+            }
             Err(Stuck::Rim | Stuck::Unsettled) => {
                 let all = self.points_with(&ids, points);
                 self.mesh_anew(
@@ -240,6 +295,11 @@ impl TemplateSession {
     /// points has gone since the last time, all others are put in anew; the whole is meshed
     /// anew then if the rim has been refined.
     pub fn remove(&mut self, ids: &[PointId]) -> Result<Outcome, SessionError> {
+        let workers = self.workers.clone();
+        workers.run(|| self.remove_here(ids))
+    }
+
+    fn remove_here(&mut self, ids: &[PointId]) -> Result<Outcome, SessionError> {
         let mut sorted: Vec<PointId> = ids.to_vec();
         sorted.sort_unstable();
         let twice = sorted.windows(2).find(|w| w[0] == w[1]).map(|w| w[0]);
@@ -300,6 +360,11 @@ impl TemplateSession {
     /// the rim are too long, or need no longer be as short as a size before wanted them, the
     /// whole is meshed anew.
     pub fn set_size(&mut self, size: Option<Size>) -> Result<Outcome, SessionError> {
+        let workers = self.workers.clone();
+        workers.run(|| self.set_size_here(size))
+    }
+
+    fn set_size_here(&mut self, size: Option<Size>) -> Result<Outcome, SessionError> {
         if let Some(size) = &size {
             let (centre, radius) = self.domain();
             check_size(size, centre, radius)?;
@@ -316,7 +381,7 @@ impl TemplateSession {
         }
         match self.grown.set_size(size.clone()) {
             Ok(step) => Ok(self.done(step, Vec::new(), Vec::new(), self.since)),
-            Err(Stuck::Levels(_)) => Err(grown::too_many().into()),
+            Err(Stuck::Levels(_)) => Err(grown::too_fine().into()),
             Err(Stuck::Rim | Stuck::Unsettled) => {
                 let anew = (self.grown.lattice(), self.grown.steps());
                 self.mesh_anew(anew, size, self.all_points(), (Vec::new(), self.since.and_lifted()))
@@ -344,14 +409,21 @@ impl TemplateSession {
     ///
     /// [`SessionError`] if the larger domain cannot be meshed.
     pub fn grow(&mut self) -> Result<Outcome, SessionError> {
-        let (centre, radius) = self.domain();
-        let reach = centre.abs().max_element() + 2.0 * radius;
-        if reach >= MAX_COORDINATE {
-            return Err(SessionError::InvalidDomain { centre, radius: 2.0 * radius });
-        }
+        let workers = self.workers.clone();
+        workers.run(|| self.grow_here())
+    }
+
+    fn grow_here(&mut self) -> Result<Outcome, SessionError> {
         let all = self.all_points();
-        let lattice = fitting((centre, 2.0 * radius), &all.1);
+        let lattice = fitting(self.grown_domain(2.0 * self.domain().1)?, &all.1);
         self.mesh_anew(lattice, self.grown.size.clone(), all, (Vec::new(), self.since.and_lifted()))
+    }
+
+    /// The domain with another radius.
+    fn grown_domain(&self, radius: f64) -> Result<(DVec2, f64), SessionError> {
+        let centre = self.domain().0;
+        let fits = centre.abs().max_element() + radius < MAX_COORDINATE;
+        if fits { Ok((centre, radius)) } else { Err(SessionError::InvalidDomain { centre, radius }) }
     }
 
     /// Meshes all points anew in the same domain, on the lattice that suits them, which takes
@@ -365,6 +437,11 @@ impl TemplateSession {
     ///
     /// That of a mesh made at once.
     pub fn renew(&mut self) -> Result<Outcome, SessionError> {
+        let workers = self.workers.clone();
+        workers.run(|| self.renew_here())
+    }
+
+    fn renew_here(&mut self) -> Result<Outcome, SessionError> {
         let all = self.all_points();
         self.mesh_anew(
             self.best_lattice(&all.1),
@@ -385,7 +462,13 @@ impl TemplateSession {
     ///
     /// In proportion to what the call changed.
     pub fn undo(&mut self) -> Result<Outcome, SessionError> {
+        let workers = self.workers.clone();
+        workers.run(|| self.undo_here())
+    }
+
+    fn undo_here(&mut self) -> Result<Outcome, SessionError> {
         let undo = self.history.pop_back().ok_or(SessionError::NothingToUndo)?;
+        let before = self.domain();
         let (delta, remeshed) = match undo.mesh {
             Before::Step(step) => {
                 let replaced: Replaced = self.grown.take_back(*step);
@@ -403,7 +486,7 @@ impl TemplateSession {
         }
         self.present = self.points.iter().flatten().count();
         self.since = undo.since;
-        Ok(Outcome { points: Vec::new(), delta, remeshed })
+        Ok(Outcome { points: Vec::new(), delta, remeshed, domain: self.domain_after(before) })
     }
 
     /// Meshes points anew, those that are there and new ones.
@@ -414,6 +497,7 @@ impl TemplateSession {
         (ids, points): (Vec<PointId>, Vec<DVec2>),
         (new, since): (Vec<PointId>, Since),
     ) -> Result<Outcome, SessionError> {
+        let domain = self.domain();
         let grown = Grown::new(lattice, steps, (&ids, &points), (self.grown.cells.serials, size))?;
         let old = std::mem::replace(&mut self.grown, grown);
         let delta = self.grown.cells.delta_from(&old.cells);
@@ -427,7 +511,13 @@ impl TemplateSession {
         self.present = ids.len();
         let since = std::mem::replace(&mut self.since, since);
         self.remember(Undo { mesh: Before::Whole(Box::new(old)), points, since });
-        Ok(Outcome { points: new, delta, remeshed: true })
+        Ok(Outcome { points: new, delta, remeshed: true, domain: self.domain_after(domain) })
+    }
+
+    /// The domain, if it is another than before by more than rounding.
+    fn domain_after(&self, before: (DVec2, f64)) -> Option<(DVec2, f64)> {
+        let now = self.domain();
+        ((now.1 - before.1).abs() > SAME_RADIUS * before.1).then_some(now)
     }
 
     /// Ends a call.
@@ -441,7 +531,7 @@ impl TemplateSession {
         let delta = self.grown.delta(&step);
         let since = std::mem::replace(&mut self.since, since);
         self.remember(Undo { mesh: Before::Step(Box::new(step)), points: undo, since });
-        Outcome { points, delta, remeshed: false }
+        Outcome { points, delta, remeshed: false, domain: None }
     }
 
     fn remember(&mut self, undo: Undo) {
@@ -449,74 +539,6 @@ impl TemplateSession {
             self.history.pop_front();
         }
         self.history.push_back(undo);
-    }
-
-    /// The points that are there.
-    pub fn points(&self) -> impl Iterator<Item = (PointId, DVec2)> + '_ {
-        let present = |(i, order): (u64, &Option<u32>)| {
-            order.map(|order| (PointId(i), self.grown.refiner.occupant(order as usize).point))
-        };
-        (0..).zip(&self.points).filter_map(present)
-    }
-
-    /// The same as two lists.
-    fn all_points(&self) -> (Vec<PointId>, Vec<DVec2>) {
-        self.points().unzip()
-    }
-
-    /// Numbers of points, vertices and triangles.
-    pub fn counts(&self) -> [usize; 3] {
-        let [vertices, triangles] = self.grown.cells.counts;
-        [self.present, vertices, triangles]
-    }
-
-    /// Centre and circumradius of the domain.
-    pub fn domain(&self) -> (DVec2, f64) {
-        let lattice = self.grown.lattice();
-        (lattice.origin(), f64::from(self.grown.steps()) * lattice.spacing(0))
-    }
-
-    /// The mesh as it stands.
-    ///
-    /// # Complexity
-    ///
-    /// Linear in the mesh, but for sorting.
-    pub fn mesh(&self) -> SessionMesh {
-        let mut made = SessionMesh::default();
-        self.fill(&mut made);
-        made
-    }
-
-    fn fill(&self, made: &mut SessionMesh) {
-        let (mesh, names, triangle_serials) = self.grown.cells.whole(&self.grown.pages());
-        let serial = |&name: &u32| self.grown.cells.vertex(name).map_or(0, |v| v.1);
-        made.vertex_serials = names.iter().map(serial).collect();
-        let mut indices: Vec<(u32, usize)> = names.into_iter().zip(0..).collect();
-        indices.sort_unstable();
-        for (id, name) in self.names_of_points() {
-            if let Ok(i) = indices.binary_search_by_key(&name, |n| n.0) {
-                made.points.push((id, VertexId::new(indices[i].1)));
-            }
-        }
-        (made.mesh, made.triangle_serials) = (mesh, triangle_serials);
-    }
-
-    /// The vertices of points.
-    fn names_of_points(&self) -> impl Iterator<Item = (PointId, u32)> + '_ {
-        (0..).zip(&self.points).filter_map(|(i, order)| {
-            let occupant = self.grown.refiner.occupant((*order)? as usize);
-            let at = Address::new(occupant.level, occupant.at.hex);
-            Some((PointId(i), self.grown.dual.name_of(self.grown.refiner.grid(), at)?))
-        })
-    }
-
-    /// The certificate of the whole mesh, made from scratch.
-    ///
-    /// # Complexity
-    ///
-    /// Linear in the mesh.
-    pub fn certificate(&self) -> Certificate {
-        certified(&self.grown.mesh().0, &self.all_points().1)
     }
 }
 
@@ -535,13 +557,6 @@ fn longest_edge_in(mesh: &TriMesh, low: DVec2, high: DVec2) -> f64 {
         }
     }
     longest
-}
-
-/// Whether a place is inside of the hexagon with corners east and west.
-fn is_inside(from_centre: DVec2, radius: f64) -> bool {
-    let height = 0.5 * 3_f64.sqrt();
-    let (x, y) = (from_centre.x.abs(), from_centre.y.abs());
-    y < height * radius && height * x + 0.5 * y < height * radius
 }
 
 /// Refuses points of which two coincide, or are closer than coordinates resolve;

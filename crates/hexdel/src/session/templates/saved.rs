@@ -4,14 +4,18 @@ use super::cells::Serials;
 use super::grown::{Grown, certified};
 use super::laid::Since;
 use super::{PointId, TemplateSession, check_size};
+use crate::mesher::Method;
 use crate::placement::{FINEST, MAX_COORDINATE, finest_spacing};
 use crate::session::SessionError;
+use crate::session::domain::is_inside;
+use crate::session::saved::SavedOptions;
+use crate::session::workers::Workers;
 use crate::size::{Size, SizeError};
 use crate::sized;
 use hexdel_classify::Domain;
 use hexdel_geom::DVec2;
 use hexdel_grid::{Address, Hex, Lattice};
-use hexdel_optimize::SIZE_TOLERANCE;
+use hexdel_optimize::{Effort, SIZE_TOLERANCE};
 use hexdel_refine::{Refiner, RuleSet};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -54,6 +58,10 @@ struct Document {
     laid: u32,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     size: Option<Size>,
+    #[serde(default)]
+    grows: bool,
+    #[serde(default)]
+    options: SavedOptions,
     /// The hexagons that are subdivided for the size, as in `tiles`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     wanted: Vec<(u8, i64, i64, u64)>,
@@ -114,6 +122,8 @@ impl TemplateSession {
             seen: self.since.seen as u32,
             laid: self.since.laid as u32,
             size: self.size().cloned(),
+            grows: self.grows,
+            options: SavedOptions::of(&self.options),
             wanted,
         };
         ron::to_string(&document).map_err(|e| SessionError::Unreadable { message: e.to_string() })
@@ -129,6 +139,8 @@ impl TemplateSession {
     pub fn from_ron(text: &str) -> Result<Self, SessionError> {
         let document: Document = ron::from_str(text).map_err(|e| unreadable(&e.to_string()))?;
         let orders = document.check()?;
+        let options = document.options.restored(Effort::Standard).method(Method::Templates);
+        let workers = Workers::new(options.asked_threads())?;
         let lattice = Lattice::new(document.centre, document.spacing);
         let tiles = document.tiles.iter().map(|&(level, q, r, bits)| (level, Hex::new(q, r), bits));
         let sites: Vec<_> = document.points.iter().map(|p| (p.1, Some(p.2))).collect();
@@ -160,6 +172,9 @@ impl TemplateSession {
             points: orders,
             present: points.len(),
             since: document.since(),
+            grows: document.grows,
+            options,
+            workers,
             history: VecDeque::new(),
         })
     }
@@ -185,7 +200,7 @@ impl Document {
             if !at.is_finite() {
                 return Err(SessionError::NotFinite { at });
             }
-            if !super::is_inside(at - centre, radius) {
+            if !is_inside(at - centre, radius) {
                 return Err(SessionError::Outside { at, radius });
             }
             match orders.get_mut(id as usize) {

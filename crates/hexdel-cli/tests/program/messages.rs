@@ -1,0 +1,178 @@
+//! Errors name the way out, and the way out works.
+
+use crate::support::{Bench, Run, fixture};
+
+/// The value that the help of a run gives an option.
+fn named(run: &Run, option: &str) -> String {
+    let help =
+        run.err.lines().find_map(|line| line.strip_prefix("help: ")).unwrap_or_else(|| panic!("{}", run.err));
+    let word =
+        help.split_whitespace().find(|word| word.starts_with(option)).unwrap_or_else(|| panic!("{help}"));
+    word.trim_end_matches([',', ';']).to_owned()
+}
+
+#[test]
+fn points_too_close_are_joined_by_the_tolerance_that_is_named() {
+    let bench = Bench::new();
+    for table in ["near_dup_1e9", "polar"] {
+        let input = fixture(&format!("tables/{table}.csv"));
+        let run = bench.run(&format!("mesh {input} -o m.ele"));
+        run.refused(" apart, closer than the ");
+        let repair = named(&run, "--repair=");
+        let run = bench.run(&format!("mesh {input} -o m.ele {repair} --report r.json"));
+        assert_eq!(run.code, 0, "{table} {repair}: {}", run.err);
+        assert!(!bench.json("r.json")["repairs"].as_array().unwrap().is_empty());
+    }
+}
+
+#[test]
+fn radii_that_do_not_fit_name_one_that_does() {
+    let bench = Bench::new();
+    bench.file("p.txt", "0 0\n1 0\n0.3 0.4\n");
+    let run = bench.run("mesh p.txt -o m.ele --domain-radius 0.1 --method templates");
+    run.refused("is too small");
+    // The grid follows the radius, so that a second, larger one may be named.
+    let mut run = run;
+    for _ in 0..3 {
+        if run.code != 0 {
+            let value =
+                run.err.split("--domain-radius ").nth(1).unwrap().split(',').next().unwrap().to_owned();
+            run = bench.run(&format!("mesh p.txt -o m.ele --domain-radius {value} --method templates"));
+        }
+    }
+    assert_eq!(run.code, 0, "{}", run.err);
+}
+
+#[test]
+fn loose_ends_are_named_where_nothing_is_enclosed() {
+    let bench = Bench::new();
+    let input = fixture("triangle/box_open.poly");
+    let run = bench.run(&format!("mesh {input} -o m.ele"));
+    run.refused("segments end loose at point 0 at (0, 0), point 1 at (0, 3)");
+    assert!(run.err.contains("help: --domain hull") && run.err.contains("-c"), "{}", run.err);
+    bench.run(&format!("mesh {input} -q -o m.ele --domain hull")).fine();
+    bench.run(&format!("triangle -pQP {input}")).refused("segments end loose");
+    // Many of them are counted.
+    let spokes = (0..9).map(|i| format!("{} 1 {}\n", i + 1, i)).collect::<Vec<_>>().concat();
+    let segments = (0..9).map(|i| format!("{i} 0 {}\n", i + 1)).collect::<Vec<_>>().concat();
+    bench.file("fan.poly", format!("10 2\n0 0 0\n{spokes}9 0\n{segments}0\n"));
+    bench.run("mesh fan.poly -o m.ele").refused("point 5 at (1, 4) and 4 more");
+}
+
+#[test]
+fn segments_without_length_and_twice_are_dropped_with_a_warning() {
+    let bench = Bench::new();
+    for (name, warning) in [
+        ("octagon_dupclose", "segment 8 had no length at (118.57716599999999, 28.538463999999994)"),
+        ("dup_last", "segment 3 had no length at (0, -2)"),
+        ("circle_twice", "segments 2 and 13 had a part in common"),
+    ] {
+        let input = fixture(&format!("triangle/{name}.poly"));
+        let run = bench.run(&format!("mesh {input} -o m.ele --report r.json"));
+        assert_eq!(run.code, 0, "{name}: {}", run.err);
+        assert!(run.err.lines().all(|line| line.starts_with("warning: ")), "{}", run.err);
+        assert!(run.err.contains(warning), "{}", run.err);
+        let repairs = bench.json("r.json")["repairs"].as_array().unwrap().len();
+        assert_eq!(repairs, run.err.lines().count());
+        bench.run(&format!("check m.ele --input {input}")).fine();
+    }
+    // The marker of the one that has one stays.
+    bench.run(&format!("mesh {} -q -o c.poly", fixture("triangle/circle_twice.poly")));
+    assert!(String::from_utf8(bench.read("c.poly")).unwrap().lines().any(|row| row.ends_with(" 7")));
+}
+
+#[test]
+fn faults_of_a_kind_are_told_together() {
+    let bench = Bench::new();
+    let rows = (0..8).map(|i| format!("{i}.5,x{i}\n")).collect::<Vec<_>>().concat();
+    bench.file("t.csv", format!("x,y\n0,0\n{rows}"));
+    let run = bench.run("mesh t.csv -o m.ele");
+    run.refused("t.csv:3: expected the y coordinate, found \"x0\"\nt.csv:4: ");
+    assert!(run.err.contains("t.csv:7: ") && run.err.contains("\nand 3 more of the kind\n"), "{}", run.err);
+    bench.file("s.poly", "2 2\n1 0 0\n2 1 0\n3 0\n1 1 9\n2 1 2\n3 8 2\n0\n");
+    let run = bench.run("mesh s.poly -o m.ele");
+    run.refused("s.poly:5: no point 9, there are 2 counted from 1\ns.poly:7: no point 8");
+    // Two crosses.
+    bench.file(
+        "x.poly",
+        "8 2\n0 0 0\n1 1 1\n2 1 0\n3 0 1\n4 5 0\n5 6 1\n6 6 0\n7 5 1\n4 0\n0 0 1\n1 2 3\n2 4 5\n3 6 7\n0\n",
+    );
+    let run = bench.run("mesh x.poly -o m.ele --domain hull");
+    run.refused(
+        "x.poly: segments 0 and 1 cross at (0.5, 0.5)\nx.poly: segments 2 and 3 cross at (5.5, 0.5)\n",
+    );
+    assert!(run.err.contains("help: --repair divides segments"), "{}", run.err);
+    bench.run("mesh x.poly -q -o m.ele --domain hull --repair").fine();
+}
+
+#[test]
+fn files_that_triangle_reads_are_read_with_a_warning() {
+    let bench = Bench::new();
+    for (name, warning) in [
+        (
+            "p_extra_marker",
+            "p_extra_marker.poly:2: expected end of line, found \"5\"; fields beyond those announced are left, and 7 times more",
+        ),
+        (
+            "p_missing_marker",
+            "expected a boundary marker, found end of line; missing markers are taken to be 0, and 7 times more",
+        ),
+        (
+            "p_comma",
+            "p_comma.poly:1: expected white space between fields, found \",\"; commas are taken for spaces, and 9 times more",
+        ),
+        (
+            "p_float_int",
+            "found \"1.0\"; markers with a decimal point are taken for integers, and 7 times more",
+        ),
+    ] {
+        let input = fixture(&format!("triangle/{name}.poly"));
+        let run = bench.run(&format!("mesh {input} -q -o m.ele --report r.json"));
+        assert_eq!(run.code, 0, "{name}: {}", run.err);
+        assert!(run.err.starts_with("warning: ") && run.err.contains(warning), "{}", run.err);
+        let report = bench.json("r.json");
+        assert_eq!((&report["segments"], report["input_warnings"].as_array().unwrap().len()), (&4.into(), 1));
+        bench.file("copy.poly", std::fs::read(&input).unwrap());
+        let run = bench.run("triangle -Q copy.poly");
+        assert!(run.code == 0 && run.err.starts_with("warning: copy.poly:"), "{}", run.err);
+    }
+    bench.run(&format!("mesh {} -q -o m.poly", fixture("triangle/p_float_int.poly")));
+    let text = String::from_utf8(bench.read("m.poly")).unwrap();
+    assert!(text.lines().next().unwrap().ends_with(" 1 1"), "{text}");
+}
+
+#[test]
+fn options_that_there_are_not_lead_to_those_that_mean_the_same() {
+    let bench = Bench::new();
+    bench.file("p.txt", "0 0\n1 0\n");
+    for (arguments, tip) in [
+        ("mesh p.txt -o m.ele --area 1", "the same here is '--max-area A'"),
+        ("mesh p.txt --to m.ele", "the same here is '-o FILE'"),
+        ("convert p.txt --to csv", "output comes without an option, as in 'hexdel convert INPUT OUTPUT'"),
+        ("mesh p.txt -o m.ele --angle 20", "the same here is '--min-angle DEG'"),
+        ("mesh p.txt -o m.ele --tol 20", "the same here is '--repair=TOL'"),
+        ("mesh p.txt -o m.ele --hull", "the same here is '--domain hexagon, hull, box or inside'"),
+        ("mesh p.txt -o m.ele --min-angel 20", "a similar argument exists: '--min-angle'"),
+    ] {
+        let run = bench.run(arguments);
+        assert_eq!(run.code, 2);
+        assert!(run.err.contains(tip), "{arguments}: {}", run.err);
+    }
+    for (arguments, wrong) in [
+        ("mesh p.txt -o m.ele --area 1", "repair"),
+        ("mesh p.txt --to m.ele", "histogram"),
+        ("mesh p.txt -o m.ele --frobnicate", "tip:"),
+    ] {
+        let run = bench.run(arguments);
+        assert!(run.code == 2 && !run.err.contains(wrong), "{arguments}: {}", run.err);
+    }
+}
+
+#[test]
+fn a_mesh_may_lie_beside_a_graph_that_has_its_points_in_it() {
+    let bench = Bench::new();
+    bench.file("box.poly", std::fs::read(fixture("triangle/box_closed.poly")).unwrap());
+    bench.run("mesh box.poly -q -o box.ele").fine();
+    assert_eq!(bench.names(), ["box.ele", "box.node", "box.poly"]);
+    bench.run("check box.ele --input box.poly").fine();
+}

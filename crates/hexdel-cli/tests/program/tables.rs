@@ -1,0 +1,90 @@
+//! Which columns of a table are x and y.
+
+use crate::support::{Bench, fixture};
+
+/// Vertices of a mesh in `.node` that are input points, in their order.
+fn input_points(bench: &Bench, name: &str) -> Vec<[f64; 2]> {
+    let text = String::from_utf8(bench.read(name)).unwrap();
+    let rows = text.lines().skip(1).map(|row| {
+        let numbers: Vec<f64> = row.split_whitespace().map(|n| n.parse().unwrap()).collect();
+        (numbers[3], [numbers[1], numbers[2]])
+    });
+    let mut inputs: Vec<(f64, [f64; 2])> = rows.filter(|row| row.0 >= 0.0).collect();
+    inputs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    inputs.into_iter().map(|row| row.1).collect()
+}
+
+#[test]
+fn headers_tell_the_columns_in_any_order() {
+    let bench = Bench::new();
+    for (table, told, first) in [
+        ("id_east_north", "x = Easting (column 2), y = Northing (column 3)", [500_000.5, 5_200_000.25]),
+        ("wellnames", "x = X_UTM (column 2), y = Y_UTM (column 3)", [500_000.5, 5_200_000.25]),
+        ("latlon_header", "x = lon (column 3), y = lat (column 2)", [8.2, 47.1]),
+    ] {
+        let input = fixture(&format!("tables/{table}.csv"));
+        for more in ["", "--domain hull"] {
+            let run = bench.run(&format!("mesh {input} -o m.ele --report r.json {more}"));
+            run.fine();
+            assert!(
+                run.out.contains(&format!("\ncolumns    {told}\n")) || run.out.starts_with("columns"),
+                "{}",
+                run.out
+            );
+            assert_eq!(bench.json("r.json")["columns"], told);
+            let found = input_points(&bench, "m.node");
+            assert_eq!((found.len(), found[0]), (3, first), "{table}");
+        }
+        bench.run(&format!("check m.ele --input {input} --min-angle 20")).fine();
+    }
+    bench.run(&format!("convert {} a.xyz", fixture("tables/latlon_header.csv"))).fine();
+    assert_eq!(bench.read("a.xyz"), b"8.2 47.1\n8.9 47.3\n8.5 46.9\n");
+}
+
+#[test]
+fn a_header_that_does_not_tell_asks_for_columns() {
+    let bench = Bench::new();
+    bench.file("a.csv", "objectid,where,up,h\n1,5,6,7\n2,6,8,7\n3,5,8,7\n");
+    let run = bench.run("mesh a.csv -o m.ele");
+    run.refused("a.csv:1: the header does not tell which columns are x and y: \"objectid,where,up,h\"");
+    assert!(run.err.contains("help: --columns where,up, by name or number"), "{}", run.err);
+    for asked in ["where,up", "2,3", "WHERE,3"] {
+        let run = bench.run(&format!("mesh a.csv -o m.ele --columns {asked}"));
+        run.fine();
+        assert!(run.out.contains("columns    x = where (column 2), y = up (column 3)\n"), "{}", run.out);
+        assert_eq!(input_points(&bench, "m.node"), [[5.0, 6.0], [6.0, 8.0], [5.0, 8.0]]);
+    }
+    bench.run("mesh a.csv -o n.ele --columns where,down").refused("a.csv:1: no column down, there are");
+    bench.run("mesh a.csv -o n.ele --columns 2").refused("expected the columns of x and y by name or number");
+    let run = bench.run("mesh a.csv -o n.ele --columns objectid,z");
+    assert!(run.err.contains("help: --columns X,Y"), "{}", run.err);
+    // Without a header, a first column that counts.
+    bench.file("b.xyz", "1 5 6\n2 6 8\n3 5 8\n");
+    let run = bench.run("mesh b.xyz -o n.ele");
+    run.refused("b.xyz:1: the first column looks like a number of the row");
+    assert!(run.err.contains("help: --columns 2,3,"), "{}", run.err);
+    bench.run("mesh b.xyz -o n.ele --columns 2,3").fine();
+    assert_eq!(bench.read("n.node"), bench.read("m.node"));
+    for command in ["check n.ele --input b.xyz", "convert b.xyz c.xyz", "plot n.ele -o n.svg --input b.xyz"] {
+        bench.run(command).refused("the first column looks like a number of the row");
+        bench.run(&format!("{command} --columns 2,3")).fine();
+    }
+    // Of what is no table, columns are nothing.
+    let run = bench.run("mesh n.node -o k.ele --columns 2,3");
+    assert!(run.code == 0 && run.err.contains("--columns is for tables"), "{}", run.err);
+}
+
+#[test]
+fn decimal_commas_are_read_where_they_cannot_be_mistaken() {
+    let bench = Bench::new();
+    bench.file("a.csv", "id;Hochwert;Rechtswert\n1;1,5;0,25\n2;2,5;0\n3;2;1,5\n");
+    let run = bench.run("mesh a.csv -o m.ele");
+    run.fine();
+    let told = "columns    x = Rechtswert (column 3), y = Hochwert (column 2), with decimal commas\n";
+    assert!(run.out.contains(told), "{}", run.out);
+    assert_eq!(input_points(&bench, "m.node"), [[0.25, 1.5], [0.0, 2.5], [1.5, 2.0]]);
+    bench.file("b.csv", "x,y\n1,5,2,5\n2,5,3,5\n");
+    let run = bench.run("mesh b.csv -o n.ele");
+    run.refused("decimal commas are read where ; or a tab separates");
+    assert!(run.err.contains("b.csv:3: "), "{}", run.err);
+}

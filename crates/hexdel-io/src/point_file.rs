@@ -1,0 +1,215 @@
+//! Reading points and graphs: which reader for which format, and what is told of the
+//! file beside what it holds.
+
+use std::io::BufRead;
+use std::path::Path;
+
+use hexdel_geom::Pslg;
+
+use crate::columns::{Columns, TakenColumns};
+use crate::error::ReadError;
+use crate::format::PointFormat;
+use crate::json::{Source, slurp};
+use crate::lines::{Comments, Lines};
+use crate::mend::{Mends, ReadWarning};
+use crate::read::{beside, open};
+use crate::{geojson, graph_json, graph_ron, table, triangle, wkt};
+
+/// Points, and segments, holes and regions if there are any, with what was found out
+/// about their file.
+#[derive(Debug, Default)]
+#[non_exhaustive]
+pub struct PointFile {
+    /// What the file holds.
+    pub pslg: Pslg,
+    /// What was wrong with it and read all the same.
+    pub warnings: Vec<ReadWarning>,
+    /// Of a table, the columns that were taken.
+    pub columns: Option<TakenColumns>,
+    /// The number of the first point: 0, or 1 in a file of Triangle's that counts from 1.
+    pub first_number: u32,
+}
+
+/// Reads points and graphs, told which columns to take.
+///
+/// Unlike [`read_points`], it reads files that depart from their format in a way that
+/// leaves no doubt, and tells of it: fields of Triangle's files that are separated by
+/// commas, that are missing where they have a default (markers, attributes), that are more
+/// than the header says, or that are integers written as `1.0`.
+///
+/// ```
+/// use hexdel_io::{PointFormat, PointReader};
+///
+/// let table = "id,east,north\n7,1,2\n8,3,4\n";
+/// let read = PointReader::new().read_from(table.as_bytes(), PointFormat::Csv, "wells")?;
+/// assert_eq!(read.columns.unwrap().to_string(), "x = east (column 2), y = north (column 3)");
+///
+/// let sloppy = "2, 2, 0, 0\n1, 0, 0\n2, 1, 0\n";
+/// let read = PointReader::new().read_from(sloppy.as_bytes(), PointFormat::Node, "a.node")?;
+/// assert_eq!((read.pslg.points.len(), read.first_number, read.warnings.len()), (2, 1, 1));
+/// # Ok::<(), hexdel_io::ReadError>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct PointReader {
+    columns: Option<Columns>,
+    strict: bool,
+}
+
+impl PointReader {
+    /// A reader that finds the columns of tables out.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes these columns of a table, if any are given.
+    #[must_use]
+    pub fn columns(mut self, columns: Option<Columns>) -> Self {
+        self.columns = columns;
+        self
+    }
+
+    /// Reads a file in the format that its extension stands for.
+    ///
+    /// A `.poly` file that announces 0 points has them in the `.node` file beside it.
+    ///
+    /// # Errors
+    ///
+    /// Every [`ReadError`]; file, line and item are named.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the size of the file, `n log n` for polygons; memory in proportion to
+    /// what was read, never to what a header claims.
+    pub fn read(&self, path: impl AsRef<Path>) -> Result<PointFile, ReadError> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        let Some(format) = PointFormat::from_path(path) else {
+            return Err(ReadError::UnknownExtension { file: name, known: PointFormat::READABLE });
+        };
+        let reader = open(path)?;
+        if format != PointFormat::Poly {
+            return self.read_from(reader, format, &name);
+        }
+        self.poly(reader, &name, |mends| {
+            let nodes = beside(path, "node");
+            triangle::read_node(open(&nodes)?, &nodes.display().to_string(), mends)
+        })
+    }
+
+    /// Reads from anything that can be read, `name` being what errors call it.
+    ///
+    /// # Errors
+    ///
+    /// As [`read`](Self::read), and [`ReadError::PointsElsewhere`] for a `.poly` text
+    /// without points.
+    pub fn read_from(
+        &self,
+        reader: impl BufRead,
+        format: PointFormat,
+        name: &str,
+    ) -> Result<PointFile, ReadError> {
+        let read_all = |read: fn(&Source<'_>) -> Result<Pslg, ReadError>, reader| {
+            read(&Source { bytes: &slurp(reader, name)?, file: name })
+        };
+        let pslg = match format {
+            PointFormat::Node => {
+                let mut mends = Mends::new(self.strict);
+                let (pslg, range) = triangle::read_node(reader, name, &mut mends)?;
+                let (warnings, first_number) = (mends.into_warnings(), range.first_number());
+                return Ok(PointFile { pslg, warnings, first_number, ..PointFile::default() });
+            }
+            PointFormat::Poly => return self.poly(reader, name, |_| Err(elsewhere(name))),
+            PointFormat::Table | PointFormat::Csv | PointFormat::Tsv => {
+                let (pslg, columns) = table::read_table(reader, name, self.columns.as_ref())?;
+                return Ok(PointFile { pslg, columns, ..PointFile::default() });
+            }
+            PointFormat::Wkt => wkt::read_wkt(reader, name)?,
+            PointFormat::GeoJson => read_all(geojson::read_geojson, reader)?,
+            PointFormat::Json => read_all(graph_json::read_any_json, reader)?,
+            PointFormat::CgShop => read_all(graph_json::read_cgshop, reader)?,
+            PointFormat::Ron => read_all(graph_ron::read_graph_ron, reader)?,
+        };
+        Ok(PointFile { pslg, ..PointFile::default() })
+    }
+
+    fn poly(
+        &self,
+        reader: impl BufRead,
+        name: &str,
+        beside: impl FnOnce(&mut Mends) -> Result<(Pslg, triangle::PointRange), ReadError>,
+    ) -> Result<PointFile, ReadError> {
+        let mut mends = Mends::new(self.strict);
+        let beside = |line: u64, mends: &mut Mends| {
+            beside(mends).map_err(|error| match error {
+                ReadError::PointsElsewhere { file, .. } => ReadError::PointsElsewhere { file, line },
+                other => other,
+            })
+        };
+        let (pslg, range) = triangle::read_poly(reader, name, &mut mends, beside)?;
+        let (warnings, first_number) = (mends.into_warnings(), range.first_number());
+        Ok(PointFile { pslg, warnings, first_number, ..PointFile::default() })
+    }
+}
+
+/// Whether a `.poly` file has its points in the `.node` beside it; so too if it cannot
+/// be read, which is for others to say.
+pub fn points_beside(path: impl AsRef<Path>) -> bool {
+    let Ok(reader) = open(path.as_ref()) else {
+        return true;
+    };
+    let mut lines = Lines::new(reader, "", Comments::Anywhere);
+    let count =
+        lines.next_row().ok().flatten().and_then(|row| row.fields_with_commas().text().map(str::to_owned));
+    count.is_none_or(|count| count.parse() == Ok(0_u64))
+}
+
+fn elsewhere(name: &str) -> ReadError {
+    ReadError::PointsElsewhere { file: name.to_owned(), line: 0 }
+}
+
+/// Reads points, and segments, holes and regions if the format has them. What a
+/// [`PointReader`] warns of is an error here.
+///
+/// # Errors
+///
+/// As [`PointReader::read`].
+///
+/// # Complexity
+///
+/// As [`PointReader::read`].
+pub fn read_points(path: impl AsRef<Path>) -> Result<Pslg, ReadError> {
+    strict().read(path).map(|file| file.pslg)
+}
+
+/// Reads points from anything that can be read, `name` being what errors call it.
+///
+/// # Errors
+///
+/// As [`PointReader::read_from`].
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_io::{PointFormat, read_points_from};
+///
+/// let pslg = read_points_from("x,y\n0.5,1\n".as_bytes(), PointFormat::Table, "inline")?;
+/// assert_eq!(pslg.points[0].x, 0.5);
+///
+/// let text = "POLYGON ((0 0, 4 0, 0 4, 0 0), (1 1, 2 1, 1 2, 1 1))";
+/// let pslg = read_points_from(text.as_bytes(), PointFormat::Wkt, "inline")?;
+/// assert_eq!((pslg.segments.len(), pslg.holes.len(), pslg.regions.len()), (6, 1, 1));
+///
+/// let error = read_points_from("1 2\n0 0.5 NaN\n".as_bytes(), PointFormat::Node, "a.node");
+/// assert_eq!(
+///     error.unwrap_err().to_string(),
+///     "a.node:2: coordinate NaN of point 0 is not finite",
+/// );
+/// # Ok::<(), hexdel_io::ReadError>(())
+/// ```
+pub fn read_points_from(reader: impl BufRead, format: PointFormat, name: &str) -> Result<Pslg, ReadError> {
+    strict().read_from(reader, format, name).map(|file| file.pslg)
+}
+
+fn strict() -> PointReader {
+    PointReader { strict: true, ..PointReader::default() }
+}

@@ -1,0 +1,102 @@
+//! Attributes of vertices: those of the points given, and between them.
+
+use super::result::PslgTriangulation;
+use hexdel_geom::{DVec2, Pslg};
+use hexdel_pslg::{RepairReport, validate};
+
+impl PslgTriangulation {
+    /// The attributes of each vertex in a row, as many as the points `given` have: their own,
+    /// linearly between them in the constrained Delaunay triangulation of the graph. Along
+    /// segments they are linear between its points. None if the points have none.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Pslg};
+    /// let mut square = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
+    /// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0]];
+    /// (square.attributes_per_point, square.point_attributes) = (1, vec![0.0, 1.0, 3.0, 2.0]);
+    /// let made = hexdel::Mesher::new().max_area(0.01).triangulate_pslg(&square)?;
+    /// // A linear function stays one.
+    /// for (v, value) in made.mesh.vertices.iter().zip(made.vertex_attributes(&square)) {
+    ///     assert!((value - (v.x + 2.0 * v.y)).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not one of the graph given.
+    ///
+    /// # Complexity
+    ///
+    /// That of [`validate`], and near-linear in the mesh.
+    pub fn vertex_attributes(&self, given: &Pslg) -> Vec<f64> {
+        let n = given.attributes_per_point;
+        if n == 0 {
+            return Vec::new();
+        }
+        let of_points = self.attributes_of_points(given);
+        let bare = Pslg {
+            points: self.graph.points.clone(),
+            segments: self.graph.segments.clone(),
+            ..Pslg::default()
+        };
+        let plane = validate(&bare).expect("a graph that was meshed is valid");
+        let between = plane.interpolate(&of_points, n, &self.mesh.vertices);
+        let mut all = Vec::with_capacity(n * self.mesh.vertices.len());
+        for (v, point) in self.point_of_vertex.iter().enumerate() {
+            match *point {
+                Some(p) => all.extend_from_slice(&of_points[p as usize * n..(p as usize + 1) * n]),
+                None => all.extend_from_slice(&between[v * n..(v + 1) * n]),
+            }
+        }
+        all
+    }
+
+    /// The attributes of each point of the graph that was meshed.
+    fn attributes_of_points(&self, given: &Pslg) -> Vec<f64> {
+        let n = given.attributes_per_point;
+        let Some(report) = &self.repairs else {
+            return given.point_attributes.clone();
+        };
+        let count = self.graph.points.len();
+        let (mut all, mut known) = (vec![0.0; n * count], vec![false; count]);
+        for (i, &p) in report.point_of_input.iter().enumerate() {
+            let p = p as usize;
+            if p < count && !std::mem::replace(&mut known[p], true) {
+                all[p * n..(p + 1) * n].copy_from_slice(given.attributes(i));
+            }
+        }
+        self.fill_crossings(given, report, &known, &mut all);
+        all
+    }
+
+    /// Where segments cross: the mean of what is there along each.
+    fn fill_crossings(&self, given: &Pslg, report: &RepairReport, known: &[bool], all: &mut [f64]) {
+        let n = given.attributes_per_point;
+        let mut through: Vec<(u32, u32)> = Vec::new();
+        for (ends, sources) in self.graph.segments.iter().zip(&report.sources) {
+            let new = ends.iter().filter(|&&p| !known[p as usize]);
+            through.extend(new.flat_map(|&p| sources.iter().map(move |&s| (p, s))));
+        }
+        through.sort_unstable();
+        through.dedup();
+        for crossing in through.chunk_by(|a, b| a.0 == b.0) {
+            let p = crossing[0].0 as usize;
+            for &(_, segment) in crossing {
+                let [a, b] = given.segments[segment as usize].map(|p| p as usize);
+                let t = along(given.points[a], given.points[b], self.graph.points[p]);
+                for k in 0..n {
+                    let value = (1.0 - t) * given.attributes(a)[k] + t * given.attributes(b)[k];
+                    all[p * n + k] += value / crossing.len() as f64;
+                }
+            }
+        }
+    }
+}
+
+/// How far along the way from a to b a point is, in parts of one.
+fn along(a: DVec2, b: DVec2, p: DVec2) -> f64 {
+    let way = b - a;
+    let length_sq = way.length_squared();
+    if length_sq > 0.0 { ((p - a).dot(way) / length_sq).clamp(0.0, 1.0) } else { 0.0 }
+}

@@ -1,0 +1,28 @@
+//! Hexagons as domains: what is inside, and how far they grow.
+
+use crate::placement::MAX_COORDINATE;
+use hexdel_geom::DVec2;
+
+/// How far from the centre points may be after growing, in parts of the way to the rim.
+const ROOM: f64 = 0.75;
+
+/// The radius of a domain doubled until points outside of it have room in it; none if
+/// there are none. Points that are not finite are left to others.
+pub(super) fn reaching((centre, radius): (DVec2, f64), points: &[DVec2]) -> Option<f64> {
+    let finite = || points.iter().filter(|p| p.is_finite()).map(|&p| p - centre);
+    if finite().all(|p| is_inside(p, radius)) {
+        return None;
+    }
+    let mut wanted = 2.0 * radius;
+    while wanted < MAX_COORDINATE && !finite().all(|p| is_inside(p, ROOM * wanted)) {
+        wanted *= 2.0;
+    }
+    Some(wanted)
+}
+
+/// Whether a place is inside of the hexagon with corners east and west.
+pub(super) fn is_inside(from_centre: DVec2, radius: f64) -> bool {
+    let height = 0.5 * 3_f64.sqrt();
+    let (x, y) = (from_centre.x.abs(), from_centre.y.abs());
+    y < height * radius && height * x + 0.5 * y < height * radius
+}
