@@ -50,6 +50,10 @@ impl AngleBounds {
     /// vertex may be rounded by a millionth of an edge before an angle is past it.
     pub const EXTENDED: Self = Self { min_deg: 43.8978, max_deg: 90.0 };
 
+    /// The smallest angle of the templates, `atan(5 / (3 sqrt 3))`, in degrees, to the nearest
+    /// `f64`.
+    pub const EXACT_MIN_DEG: f64 = 43.897_886_248_013_98;
+
     /// What the plain dual keeps: 30 to 120 degrees (paper, section 4.3).
     pub const SIMPLE: Self = Self { min_deg: 30.0, max_deg: 120.0 };
 
@@ -75,6 +79,43 @@ impl AngleBounds {
     pub const fn max_deg(self) -> f64 {
         self.max_deg
     }
+
+    /// The largest circumradius over twice the inradius of a triangle within the bounds;
+    /// infinite if the smallest angle is 0. 1.20787 for [`EXTENDED`](Self::EXTENDED) (paper,
+    /// section 6.2, where the ratio is inverted).
+    ///
+    /// The ratio is `1 / (8 sin(A/2) sin(B/2) sin(C/2))`. The logarithm of the sine is
+    /// concave, so the product is least at a corner of the set of angles allowed, where at
+    /// least two of the three are at a bound.
+    ///
+    /// ```
+    /// use hexdel_geom::AngleBounds;
+    /// assert!((AngleBounds::EXTENDED.max_aspect_ratio() - 1.20787).abs() < 1e-5);
+    /// assert!((AngleBounds::SIMPLE.max_aspect_ratio() - 2.15470).abs() < 1e-5);
+    /// ```
+    pub fn max_aspect_ratio(self) -> f64 {
+        let Self { min_deg: low, max_deg: high } = self;
+        let thirds = [[low, low], [low, high], [high, high]].map(|[a, b]| [a, b, 180.0 - a - b]);
+        let allowed = thirds.into_iter().filter(|[_, _, c]| (low..=high).contains(c));
+        allowed.map(aspect_ratio_of_angles).fold(1.0, f64::max)
+    }
+
+    /// A lower bound alone.
+    pub(crate) const fn at_least(min_deg: f64) -> Self {
+        Self { min_deg, max_deg: 180.0 }
+    }
+
+    /// Bounds wider by an angle at both ends, as far as there are angles.
+    pub(crate) fn widened(self, by_deg: f64) -> Self {
+        Self { min_deg: (self.min_deg - by_deg).max(0.0), max_deg: (self.max_deg + by_deg).min(180.0) }
+    }
+}
+
+/// Circumradius over twice the inradius of a triangle with these angles, degrees.
+fn aspect_ratio_of_angles(angles_deg: [f64; 3]) -> f64 {
+    let [a, b, c] = angles_deg.map(|angle| libm::sin((0.5 * angle).to_radians()));
+    // Rounding may take an angle of 0 below it.
+    (0.125 / (a * b * c).max(0.0)).max(1.0)
 }
 
 impl Default for AngleBounds {
@@ -86,6 +127,28 @@ impl Default for AngleBounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_aspect_ratio_is_that_of_the_worst_triangle_allowed() {
+        for (low, high) in
+            [(43.8978, 90.0), (30.0, 120.0), (30.0, 90.0), (48.0, 84.0), (20.0, 70.0), (60.0, 60.0)]
+        {
+            let bound = AngleBounds::new(low, high).unwrap().max_aspect_ratio();
+            let mut largest = 0.0_f64;
+            // Every tenth of a degree, and the ends.
+            let angles = || (0..=1800).map(|i| 0.1 * f64::from(i)).chain([low, high]);
+            for (a, b) in angles().flat_map(|a| angles().map(move |b| (a, b))) {
+                let all = [a, b, 180.0 - a - b];
+                if all.iter().all(|x| (low - 1e-9..=high + 1e-9).contains(x)) {
+                    largest = largest.max(aspect_ratio_of_angles(all));
+                }
+            }
+            assert!((bound - largest).abs() < 1e-8, "{low} {high}: {bound} {largest}");
+        }
+        assert_eq!(AngleBounds::new(0.0, 90.0).unwrap().max_aspect_ratio(), f64::INFINITY);
+        let exact = (5.0 / 27_f64.sqrt()).atan().to_degrees();
+        assert!((exact - AngleBounds::EXACT_MIN_DEG).abs() < 1e-13);
+    }
 
     #[test]
     fn what_is_read_is_checked() {

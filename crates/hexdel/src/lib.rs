@@ -52,6 +52,7 @@ pub mod mesher;
 pub mod picture;
 mod placement;
 pub mod session;
+mod shortest;
 pub mod size;
 mod sized;
 pub mod triangulation;

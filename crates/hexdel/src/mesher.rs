@@ -4,6 +4,7 @@ use crate::compact::{Again, Ended, Time, Work};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
+use crate::shortest::shortest_edge;
 use crate::size::{Size, SizeError};
 use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
@@ -23,8 +24,7 @@ use std::time::{Duration, Instant};
 #[non_exhaustive]
 pub enum Method {
     /// The paper's extended refinement and relocation templates (section 5):
-    /// 43.9 to 90 degrees. No optimisation: fast, many triangles, no edge
-    /// shorter than the paper's `l_min`.
+    /// 43.9 to 90 degrees. No optimisation: fast, many triangles.
     Templates,
     /// The paper's simple refinement (section 4): 30 to 120 degrees, about a
     /// quarter of the triangles.
@@ -341,10 +341,10 @@ impl Mesher {
     /// # Guarantees
     ///
     /// The mesh has passed its certificate: every angle within the bounds,
-    /// Delaunay, one disk, every point a vertex bit for bit, no edge shorter
-    /// than the paper's `l_min` (but for [`Method::Compact`]). Angles that only the rounding of coordinates
-    /// takes past a bound are listed in it. Same points, same bytes, at any
-    /// number of threads.
+    /// aspect ratio as those imply, Delaunay, one disk, every point a vertex bit for bit, no edge
+    /// shorter than the paper's `l_min` of the closest two points (with a size, of that where it is
+    /// less). Angles that only the rounding of coordinates takes past a bound are listed in it. Same
+    /// points, same bytes, at any number of threads.
     ///
     /// # Errors
     ///
@@ -458,11 +458,16 @@ impl Mesher {
 
         let relocation = start.relocation();
         let domain = placement.domain(refiner.grid(), relocation)?;
+        let mut least = f64::INFINITY;
         let (mut dual, domain) = if let Some(size) = &self.size {
-            Sized { refiner: &mut refiner, relocation, size, monitor }.extract(domain)?
+            let mut sized = Sized { refiner: &mut refiner, relocation, size, monitor, least };
+            let extracted = sized.extract(domain)?;
+            least = sized.least;
+            extracted
         } else {
             (refiner.extract(domain, relocation, monitor)?, domain)
         };
+        let wanted = self.size.is_some().then_some(least);
         let mut ended = Ended { reached: true, spent: false };
         if optimize {
             let work = Work { bounds, effort: self.effort, size: self.size.as_ref(), monitor };
@@ -474,7 +479,8 @@ impl Mesher {
         let extracted = Instant::now();
 
         check(monitor)?;
-        let certificate = match self.finish(&mut dual, bounds, placement, points, monitor) {
+        let min_edge = shortest_edge([placement.closest, wanted]);
+        let certificate = match self.finish(&mut dual, (bounds, min_edge), points, monitor) {
             // Without optimisation the mesh is a last resort at any bounds.
             Err(Error::NotCertified { mesh, certificate })
                 if !ended.reached || !optimize && self.method == Method::Compact =>
@@ -544,8 +550,7 @@ impl Mesher {
     fn finish(
         &self,
         dual: &mut Dual,
-        bounds: AngleBounds,
-        placement: &Placement,
+        (bounds, min_edge): (AngleBounds, Option<f64>),
         points: &[DVec2],
         monitor: &dyn Monitor,
     ) -> Result<Certificate, Error> {
@@ -560,12 +565,7 @@ impl Mesher {
         restore_delaunay(&mut dual.mesh, kept, free)?;
         let total = dual.mesh.triangles.len() as u64;
         check(monitor)?;
-        let options = CertifyOptions {
-            bounds,
-            inputs: Some(points),
-            min_edge: placement.shortest_edge.filter(|_| !compact && self.size.is_none()),
-            ..CertifyOptions::default()
-        };
+        let options = CertifyOptions { bounds, inputs: Some(points), min_edge, ..CertifyOptions::default() };
         let certificate = certify(&dual.mesh, &options);
         if certificate.holds() {
             // Not before: what does not hold may lead to another start.

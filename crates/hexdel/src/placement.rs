@@ -16,10 +16,6 @@ use hexdel_grid::{Grid, Lattice};
 /// in hexagons three steps apart.
 pub(crate) const CONFLICT_REACH: f64 = 4.154_700_539;
 
-/// The paper's bound on the shortest edge over the distance of the closest
-/// pair (section 6.3): `sqrt(7) / (12 sqrt(3))`.
-const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
-
 /// Largest coordinate: predicates take products of four, and of differences.
 pub(crate) const MAX_COORDINATE: f64 = 1e70;
 
@@ -53,8 +49,8 @@ pub(crate) const ALIKE: f64 = 1.01;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placement {
     pub(crate) lattice: Lattice,
-    /// The smallest length that an edge may have, if there are two sites.
-    pub(crate) shortest_edge: Option<f64>,
+    /// The distance of the closest two sites, if there are two.
+    pub(crate) closest: Option<f64>,
     /// Steps of level 0 to the rim, if the domain's radius is prescribed.
     steps: Option<u32>,
     /// The level that is never subdivided.
@@ -104,8 +100,8 @@ impl Placement {
             let least = halved(circle.radius * CONFLICT_REACH, Grid::MAX_LEVELS - 4);
             return Err(too_close(points, &pair, least));
         }
-        let shortest_edge = Some(pair.distance * SHORTEST_EDGE);
-        Ok(Self { lattice: Lattice::new(circle.center, spacing), shortest_edge, steps, last_level })
+        let closest = Some(pair.distance);
+        Ok(Self { lattice: Lattice::new(circle.center, spacing), closest, steps, last_level })
     }
 
     /// A single site has no scale of its own: a patch of radius 1 or, far away,
@@ -119,7 +115,7 @@ impl Placement {
         if let Some(radius) = radius.filter(|_| spacing < least) {
             return Err(Error::DomainTooSmall { radius, least: least * f64::from(STEPS[0]) });
         }
-        Ok(Self { lattice: Lattice::new(site, spacing), shortest_edge: None, steps, last_level: 0 })
+        Ok(Self { lattice: Lattice::new(site, spacing), closest: None, steps, last_level: 0 })
     }
 
     /// The patch of the refined grid to cut the mesh out of: the one with the
@@ -262,7 +258,6 @@ mod tests {
         let sqrt = f64::sqrt;
         assert!(CONFLICT_REACH >= 3.0 + 2.0 / sqrt(3.0));
         assert!(CONFLICT_REACH < 3.0 + 2.0 / sqrt(3.0) + 1e-8);
-        assert!((SHORTEST_EDGE - sqrt(7.0) / (12.0 * sqrt(3.0))).abs() < 1e-15);
     }
 
     #[test]

@@ -34,6 +34,8 @@ pub(crate) struct Sized<'a> {
     pub(crate) relocation: Relocation,
     pub(crate) size: &'a Size,
     pub(crate) monitor: &'a dyn Monitor,
+    /// The least size that something was refined for: infinite before.
+    pub(crate) least: f64,
 }
 
 impl Sized<'_> {
@@ -69,6 +71,7 @@ impl Sized<'_> {
         let lattice = *self.refiner.grid().lattice();
         let radius = f64::from(patch.radius) * lattice.spacing(patch.base_level);
         let wanted = along_rim(self.size, lattice.origin(), radius);
+        self.least = self.least.min(wanted);
         let mut domain = patch;
         while lattice.spacing(domain.base_level) > wanted {
             domain = finer(domain)?;
@@ -102,21 +105,23 @@ impl Sized<'_> {
     }
 
     /// The coarsest leaves at the ends and middles of edges that are too long.
-    fn at_long_edges(&self, mesh: &TriMesh, base: u8) -> Result<Vec<Address>, Error> {
+    fn at_long_edges(&mut self, mesh: &TriMesh, base: u8) -> Result<Vec<Address>, Error> {
         let grid = self.refiner.grid();
         let leaf = |p: DVec2| {
             let (level, at, _) = grid.locate(p);
             // What is coarser than the patch is not in the mesh.
             if level < base { (base, grid.lattice().locate(base, p)) } else { (level, at) }
         };
-        let mut found = Vec::new();
+        let (mut found, mut least) = (Vec::new(), self.least);
         for t in &mesh.triangles {
             for k in 0..3 {
                 let [a, b] = [t[k], t[(k + 1) % 3]].map(|v| mesh.vertices[v.index()]);
                 if edge_fits(self.size, a, b) {
                     continue;
                 }
-                let leaves = [a, b, 0.5 * (a + b)].map(leaf);
+                let places = [a, b, 0.5 * (a + b)];
+                least = places.iter().map(|&p| self.size.at(p)).fold(least, f64::min);
+                let leaves = places.map(leaf);
                 let level = leaves.iter().map(|l| l.0).min().expect("three of them");
                 if level + 1 >= Grid::MAX_LEVELS {
                     return Err(SizeError::TooFine { levels: Grid::MAX_LEVELS }.into());
@@ -124,6 +129,7 @@ impl Sized<'_> {
                 found.extend(leaves.iter().filter(|l| l.0 == level).map(|l| (level, l.1.hex.q, l.1.hex.r)));
             }
         }
+        self.least = least;
         found.sort_unstable();
         found.dedup();
         Ok(found.into_iter().map(|(level, q, r)| Address::new(level, hexdel_grid::Hex::new(q, r))).collect())

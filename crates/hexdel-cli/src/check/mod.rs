@@ -141,6 +141,16 @@ fn findings(c: &Certificate, of_graph: Option<&OfGraph>) -> Vec<(bool, String)> 
         Some(of_graph) => findings.extend(of_graph.findings(c)),
         None => findings.extend(topology(c)),
     }
+    if let Some(bound) = c.max_aspect_bound {
+        findings.push(finding(
+            c.stretched_triangles == 0,
+            format!("aspect ratios as these angles have them, {bound:.5} at most"),
+            format!("{} triangles with aspect ratios that their angles do not have", c.stretched_triangles),
+        ));
+    }
+    if let Some(below) = c.below_exact_bound.filter(|below| *below > c.out_of_bounds) {
+        findings.push((true, format!("{below} triangles below atan(5 / (3 sqrt 3)), 43.897886 degrees")));
+    }
     if c.rounding_limited > 0 {
         let excess = c.worst_rounding_excess_deg;
         let n = c.rounding_limited;
@@ -192,6 +202,9 @@ fn describe(violation: &Violation) -> String {
         V::AngleBelow { triangle, angle_deg, corners, .. }
         | V::AngleAbove { triangle, angle_deg, corners, .. } => {
             format!("triangle {} {}: {angle_deg} degrees", triangle.index(), points(corners))
+        }
+        V::AspectAbove { triangle, aspect_ratio, corners } => {
+            format!("triangle {} {}: an aspect ratio of {aspect_ratio}", triangle.index(), points(corners))
         }
         V::EdgeTooShort { triangle, length, .. } => {
             format!("triangle {}: an edge of length {length}", triangle.index())

@@ -5,7 +5,7 @@ use crate::exit::{Outcome, Verdict};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
-use hexdel::{Size, Triangulation};
+use hexdel::{Certificate, Size, Triangulation};
 use hexdel_io::{ColourBy, MeshView, Overlay, PointFile};
 use std::fmt::Write as _;
 
@@ -61,6 +61,17 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     Ok(if made.budget_spent { Verdict::Spent } else { Verdict::Holds })
 }
 
+/// The shortest edge promised, as an aside.
+fn promised(certificate: &Certificate) -> String {
+    certificate.min_edge_bound.map_or_else(String::new, |least| format!(", promised {}", significant(least)))
+}
+
+/// Four digits of a length.
+fn significant(length: f64) -> String {
+    let decimals = if length > 0.0 { (3.0 - length.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{length:.decimals$}")
+}
+
 /// What is worth knowing at a glance.
 fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
     let certificate = &made.certificate;
@@ -77,6 +88,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
         "points     {}{duplicates}\n{}\
          mesh       {} vertices, {} triangles, {} levels\n\
          angles     {:.4} to {:.4} degrees\n\
+         shape      aspect ratio at most {:.5}, shortest edge {}{}\n\
          certified  angles within {:.4} to {}, Delaunay, one disk, every point a vertex{}\n\
          {spent}\
          seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
@@ -87,6 +99,9 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
         made.max_level,
         certificate.min_angle_deg,
         certificate.max_angle_deg,
+        certificate.max_aspect_ratio,
+        significant(certificate.shortest_edge),
+        promised(certificate),
         certificate.bounds.min_deg(),
         certificate.bounds.max_deg(),
         limited(certificate),

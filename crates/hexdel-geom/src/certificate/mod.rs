@@ -34,6 +34,12 @@
 //! tolerance but within this slack counts as `rounding_limited`, and the worst
 //! excess is reported; beyond it, as `out_of_bounds`.
 //!
+//! # Aspect ratio
+//!
+//! Angle bounds bound the aspect ratio ([`AngleBounds::max_aspect_ratio`]). It is computed
+//! from lengths and area, another way than angles, and held against the bound that follows
+//! from the angles granted: those past a bound by the tolerance and by rounding included.
+//!
 //! # What is not checked
 //!
 //! That the triangles do not overlap without sharing an edge or vertex
@@ -165,6 +171,16 @@ pub enum Violation {
         /// The corner positions of the triangle.
         corners: [DVec2; 3],
     },
+    /// The angles are within their bounds, but the aspect ratio is larger than that of any
+    /// triangle whose angles are.
+    AspectAbove {
+        /// The triangle.
+        triangle: TriangleId,
+        /// Circumradius over twice the inradius.
+        aspect_ratio: f64,
+        /// The corner positions of the triangle.
+        corners: [DVec2; 3],
+    },
     /// An edge is shorter than its bound by more than tolerance and rounding.
     EdgeTooShort {
         /// A triangle with the edge.
@@ -234,6 +250,13 @@ pub struct Certificate {
     /// The largest circumradius over twice the inradius, of counter-clockwise
     /// triangles.
     pub max_aspect_ratio: f64,
+    /// The largest aspect ratio of a triangle within `bounds`
+    /// ([`AngleBounds::max_aspect_ratio`]); none if it is not bounded.
+    pub max_aspect_bound: Option<f64>,
+    /// Counter-clockwise triangles that are not among `out_of_bounds`, but have a larger
+    /// aspect ratio than any triangle whose angles are past `bounds` by no more than tolerance
+    /// and rounding: one of the two measures would be wrong.
+    pub stretched_triangles: usize,
     /// Length of the shortest edge.
     pub shortest_edge: f64,
     /// Counter-clockwise triangles with an angle past a bound by more than
@@ -245,6 +268,11 @@ pub struct Certificate {
     /// The most that an angle of a `rounding_limited` triangle is past its
     /// bound, degrees; 0 if there is none.
     pub worst_rounding_excess_deg: f64,
+    /// Counter-clockwise triangles with an angle below the templates' exact bound
+    /// ([`AngleBounds::EXACT_MIN_DEG`]) by more than tolerance and rounding; those that are
+    /// out of bounds are among them. None if `bounds` allow less than [`AngleBounds::EXTENDED`]:
+    /// they are not counted then.
+    pub below_exact_bound: Option<usize>,
     /// Triangles whose exact orientation is clockwise or collinear.
     pub not_counter_clockwise: usize,
     /// Triangles with a corner that is no vertex, or the same corner twice.
@@ -303,13 +331,14 @@ impl Certificate {
     /// Whether everything that was asked for is so.
     ///
     /// That is: every triangle well formed, finite, counter-clockwise, with
-    /// angles and edges within the bounds up to tolerance and rounding; the
+    /// angles, aspect ratio and edges within the bounds up to tolerance and rounding; the
     /// mesh manifold; a disk and Delaunay if required; every input a vertex.
     pub fn holds(&self) -> bool {
         let faults = self.out_of_bounds
             + self.not_counter_clockwise
             + self.malformed
             + self.not_finite
+            + self.stretched_triangles
             + self.short_triangles;
         faults == 0
             && self.manifold
@@ -372,10 +401,13 @@ pub fn certify(mesh: &TriMesh, request: &CertifyOptions<'_>) -> Certificate {
         min_angle_deg: shapes.min_angle_deg,
         max_angle_deg: shapes.max_angle_deg,
         max_aspect_ratio: shapes.max_aspect_ratio,
+        max_aspect_bound: Some(request.bounds.max_aspect_ratio()).filter(|bound| bound.is_finite()),
+        stretched_triangles: shapes.stretched_triangles,
         shortest_edge: shapes.shortest_edge,
         out_of_bounds: shapes.out_of_bounds,
         rounding_limited: shapes.rounding_limited,
         worst_rounding_excess_deg: shapes.worst_rounding_excess_deg,
+        below_exact_bound: counts_below_exact(request.bounds).then_some(shapes.below_exact_bound),
         not_counter_clockwise: shapes.not_counter_clockwise,
         malformed: shapes.malformed,
         not_finite: shapes.not_finite,
@@ -426,6 +458,11 @@ impl<'a> View<'a> {
     fn at(&self, v: usize) -> DVec2 {
         self.mesh.vertices[v] * self.scale
     }
+}
+
+/// Whether triangles below the templates' exact bound are counted: they are where few are.
+fn counts_below_exact(bounds: AngleBounds) -> bool {
+    bounds.min_deg() >= AngleBounds::EXTENDED.min_deg()
 }
 
 /// Triangles or vertices handled at a time by one thread: large enough to hide

@@ -92,6 +92,39 @@ fn angles_out_of_bounds() {
 }
 
 #[test]
+fn angles_below_the_templates_exact_bound_are_counted() {
+    // Right triangles with a smallest angle between 43.8978 and the exact bound, on it, and
+    // above it.
+    let right = |angle_deg: f64| {
+        let m = mesh(&[[0.0, 0.0], [1.0, 0.0], [0.0, libm::tan(angle_deg.to_radians())]], &[[0, 1, 2]]);
+        let c = certify(&m, &CertifyOptions::default());
+        (c.holds(), c.below_exact_bound)
+    };
+    assert_eq!(right(43.8979), (true, Some(0)));
+    assert_eq!(right(AngleBounds::EXACT_MIN_DEG), (true, Some(0)));
+    assert_eq!(right(43.89785), (true, Some(1)));
+    assert_eq!(right(43.8), (false, Some(1)));
+    assert_eq!(wide(&sound()).below_exact_bound, None);
+}
+
+#[test]
+fn the_aspect_ratio_is_held_against_the_bound_that_the_angles_imply() {
+    // The worst triangle within the bounds has the largest ratio allowed.
+    let low = AngleBounds::EXTENDED.min_deg().to_radians();
+    let m = mesh(&[[0.0, 0.0], [1.0, 0.0], [0.0, libm::tan(low)]], &[[0, 1, 2]]);
+    let c = certify(&m, &CertifyOptions::default());
+    let bound = c.max_aspect_bound.unwrap();
+    assert!(c.holds() && c.stretched_triangles == 0 && (c.max_aspect_ratio - bound).abs() < 1e-9, "{c:?}");
+    assert!((bound - 1.207_87).abs() < 1e-6);
+    // One that is out of bounds is counted as that.
+    let m = mesh(&[[0.0, 0.0], [1.0, 0.0], [0.4, 0.45]], &[[0, 1, 2]]);
+    let c = certify(&m, &CertifyOptions::default());
+    assert_eq!((c.out_of_bounds, c.stretched_triangles), (1, 0));
+    assert!(c.max_aspect_ratio > bound);
+    assert_eq!(wide(&sound()).max_aspect_bound, None);
+}
+
+#[test]
 fn tolerance_and_rounding() {
     // The angle at the origin is 90 degrees and `past` times the tolerance.
     let tilted = |past: f64, at: f64, size: f64| {

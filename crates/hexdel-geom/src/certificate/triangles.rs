@@ -10,14 +10,22 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::{
-    ANGLE_TOLERANCE_DEG, CHUNK, CertifyOptions, LENGTH_TOLERANCE, ROUNDING_FACTOR, View, Violation, note,
+    ANGLE_TOLERANCE_DEG, CHUNK, CertifyOptions, LENGTH_TOLERANCE, ROUNDING_FACTOR, View, Violation,
+    counts_below_exact, note,
 };
 use crate::bounds::AngleBounds;
 use crate::incidence::well_formed;
 use crate::mesh::{TriangleId, VertexId};
 use crate::predicates::orient2d;
-use crate::quality::{angles_deg, aspect_of};
+use crate::quality::{angles_deg, aspect_of, aspect_ratio};
 use crate::scale::ulp;
+
+/// The templates' exact lower bound alone.
+const EXACT: AngleBounds = AngleBounds::at_least(AngleBounds::EXACT_MIN_DEG);
+
+/// How much of an aspect ratio its arithmetic may add: some thirty roundings, each of
+/// 1.1e-16, of a quotient whose parts are certain to a few of them.
+const ASPECT_ARITHMETIC: f64 = 1e-13;
 
 /// What the triangles of a mesh, or of a part of it, have to say.
 #[derive(Clone, Debug, Default)]
@@ -25,10 +33,12 @@ pub(super) struct Shapes {
     pub(super) min_angle_deg: f64,
     pub(super) max_angle_deg: f64,
     pub(super) max_aspect_ratio: f64,
+    pub(super) stretched_triangles: usize,
     pub(super) shortest_edge: f64,
     pub(super) out_of_bounds: usize,
     pub(super) rounding_limited: usize,
     pub(super) worst_rounding_excess_deg: f64,
+    pub(super) below_exact_bound: usize,
     pub(super) not_counter_clockwise: usize,
     pub(super) malformed: usize,
     pub(super) not_finite: usize,
@@ -56,6 +66,11 @@ struct Limits {
     max_cot: f64,
     /// Cotangents below this belong to angles above the upper bound.
     min_cot: f64,
+    /// Cotangents above this belong to angles below the templates' exact bound; infinite if
+    /// those are not counted.
+    exact_cot: f64,
+    /// Aspect ratios above this are looked at.
+    max_aspect: f64,
     /// Scaled.
     min_edge: f64,
     /// Squares of scaled lengths below this belong to edges that are too short
@@ -79,6 +94,12 @@ impl Limits {
             bounds: request.bounds,
             max_cot: if low > 0.0 { cot(low) } else { f64::INFINITY },
             min_cot: if high < 180.0 { cot(high) } else { f64::NEG_INFINITY },
+            exact_cot: if counts_below_exact(request.bounds) {
+                cot(AngleBounds::EXACT_MIN_DEG - ANGLE_TOLERANCE_DEG)
+            } else {
+                f64::INFINITY
+            },
+            max_aspect: request.bounds.max_aspect_ratio(),
             min_edge,
             min_edge_sq: (min_edge * (1.0 - LENGTH_TOLERANCE)).powi(2),
             max_violations: request.max_violations,
@@ -146,6 +167,12 @@ impl Part {
         if high > limits.max_cot || low < limits.min_cot {
             self.past_bounds(view, limits, triangle, [a, b, c]);
         }
+        if high > limits.exact_cot {
+            self.below_exact([a, b, c]);
+        }
+        if aspect > limits.max_aspect {
+            self.stretched(view, limits, triangle, [a, b, c]);
+        }
         if shortest_sq < limits.min_edge_sq {
             self.too_short(view, limits, triangle, [a, b, c]);
         }
@@ -169,9 +196,12 @@ impl Part {
             self.shortest_sq = self.shortest_sq.min(side.length_squared());
         }
         if orient2d(a, b, c) > 0.0 {
-            self.shapes.max_aspect_ratio =
-                self.shapes.max_aspect_ratio.max(crate::quality::aspect_ratio(corners));
+            self.shapes.max_aspect_ratio = self.shapes.max_aspect_ratio.max(aspect_ratio(corners));
             self.past_bounds(view, limits, triangle, corners);
+            if limits.exact_cot.is_finite() {
+                self.below_exact(corners);
+            }
+            self.stretched(view, limits, triangle, corners);
         } else {
             self.shapes.not_counter_clockwise += 1;
             note(&mut self.shapes.violations, limits.max_violations, || Violation::NotCounterClockwise {
@@ -205,6 +235,32 @@ impl Part {
     }
 
     #[cold]
+    fn below_exact(&mut self, corners: [DVec2; 3]) {
+        if matches!(check_angles(corners, EXACT), Fit::Outside { .. }) {
+            self.shapes.below_exact_bound += 1;
+        }
+    }
+
+    #[cold]
+    fn stretched(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
+        if matches!(check_angles(corners, limits.bounds), Fit::Outside { .. }) {
+            return;
+        }
+        let [a, b, c] = corners;
+        let slack = [[a, b, c], [b, c, a], [c, a, b]].map(rounding_slack_deg).into_iter().fold(0.0, f64::max);
+        let granted = limits.bounds.widened(ANGLE_TOLERANCE_DEG + slack).max_aspect_ratio();
+        let aspect_ratio = aspect_ratio(corners);
+        if aspect_ratio > granted * (1.0 + ASPECT_ARITHMETIC) {
+            self.shapes.stretched_triangles += 1;
+            note(&mut self.shapes.violations, limits.max_violations, || Violation::AspectAbove {
+                triangle,
+                aspect_ratio,
+                corners: original(view, corners),
+            });
+        }
+    }
+
+    #[cold]
     fn too_short(&mut self, view: &View<'_>, limits: &Limits, triangle: TriangleId, corners: [DVec2; 3]) {
         let [a, b, c] = corners;
         let floor = limits.min_edge * (1.0 - LENGTH_TOLERANCE);
@@ -231,6 +287,8 @@ impl Part {
         sum.out_of_bounds += new.out_of_bounds;
         sum.rounding_limited += new.rounding_limited;
         sum.worst_rounding_excess_deg = sum.worst_rounding_excess_deg.max(new.worst_rounding_excess_deg);
+        sum.below_exact_bound += new.below_exact_bound;
+        sum.stretched_triangles += new.stretched_triangles;
         sum.not_counter_clockwise += new.not_counter_clockwise;
         sum.malformed += new.malformed;
         sum.not_finite += new.not_finite;

@@ -19,6 +19,7 @@ mod workers;
 
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
+use crate::shortest;
 use crate::size::{Size, SizeError};
 use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
 use hexdel_optimize::live::{LiveError, LiveMesh, Step};
@@ -544,8 +545,9 @@ impl Session {
         made
     }
 
-    /// The certificate of the whole mesh, made from scratch; of a graph against the
-    /// bounds near segments, with exempt triangles out of bounds:
+    /// The certificate of the whole mesh, made from scratch; the shortest edge promised is the
+    /// paper's `l_min` of the closest two of points and corners of the domain, of the distance of
+    /// points to its sides, or of the least size, whichever is least. Of a graph against the bounds near segments, with exempt triangles out of bounds:
     /// [`check`](Self::check) knows them.
     ///
     /// # Complexity
@@ -556,8 +558,11 @@ impl Session {
         if self.frame.is_some() {
             return self.certificate_of_graph(&points);
         }
-        let options = CertifyOptions { bounds: self.bounds, inputs: Some(&points), ..Default::default() };
-        certify(&self.live.snapshot().mesh, &options)
+        let mesh = &self.live.snapshot().mesh;
+        let min_edge = shortest::of_session(&points, (self.centre, self.radius), mesh, self.size.as_ref());
+        let options =
+            CertifyOptions { bounds: self.bounds, inputs: Some(&points), min_edge, ..Default::default() };
+        certify(mesh, &options)
     }
 }
 

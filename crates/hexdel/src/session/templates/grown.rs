@@ -4,6 +4,7 @@ use super::cells::{Cells, Replaced, Serials, in_order};
 use super::patch::{is_free, settle};
 use crate::placement::CONFLICT_REACH;
 use crate::session::{PointId, SessionError};
+use crate::shortest;
 use crate::size::{Size, SizeError};
 use crate::sized::along_rim;
 use hexdel_classify::{Domain, KeptDual};
@@ -127,7 +128,7 @@ impl Grown {
         let free = |v: VertexId| is_free(&self.refiner, &self.dual, names[v.index()]);
         settle_rounding(&mut mesh, bounds, free);
         restore_constrained_delaunay(&mut mesh, bounds, free, |_| false).map_err(crate::Error::Delaunay)?;
-        let certificate = certified(&mesh, points);
+        let certificate = certified(&mesh, points, None);
         if !certificate.holds() {
             let (mesh, certificate) = (Box::new(mesh), Box::new(certificate));
             return Err(crate::Error::NotCertified { mesh, certificate }.into());
@@ -157,6 +158,13 @@ impl Grown {
     /// Steps of level 0 to the corners.
     pub(super) fn steps(&self) -> u32 {
         self.dual.domain().radius
+    }
+
+    /// The certificate of the whole mesh.
+    pub(super) fn certificate(&self, points: &[DVec2]) -> Certificate {
+        let (lattice, mesh) = (self.lattice(), self.mesh().0);
+        let domain = (lattice.origin(), f64::from(self.steps()) * lattice.spacing(0));
+        certified(&mesh, points, shortest::of_session(points, domain, &mesh, self.size.as_deref()))
     }
 
     /// Takes points out, by their place in the order of adding, and puts others
@@ -355,9 +363,10 @@ pub(super) fn too_fine() -> SizeError {
     SizeError::TooFine { levels: Grid::MAX_LEVELS }
 }
 
-pub(super) fn certified(mesh: &TriMesh, points: &[DVec2]) -> Certificate {
+/// The certificate of a mesh; what is restored need not keep a shortest edge.
+pub(super) fn certified(mesh: &TriMesh, points: &[DVec2], min_edge: Option<f64>) -> Certificate {
     let bounds = AngleBounds::EXTENDED;
-    certify(mesh, &CertifyOptions { bounds, inputs: Some(points), ..CertifyOptions::default() })
+    certify(mesh, &CertifyOptions { bounds, inputs: Some(points), min_edge, ..CertifyOptions::default() })
 }
 
 /// Points that no level tells apart.

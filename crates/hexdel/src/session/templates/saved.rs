@@ -156,7 +156,7 @@ impl TemplateSession {
         document.restore_cells(&mut grown)?;
         grown.size = document.size.clone().map(Size::checked).transpose()?.map(Arc::new);
         let points: Vec<DVec2> = document.points.iter().map(|p| p.1).collect();
-        let certificate = certified(&grown.mesh().0, &points);
+        let certificate = certified(&grown.mesh().0, &points, None);
         if !certificate.holds() {
             return Err(SessionError::NotCertified { certificate: Box::new(certificate) });
         }

@@ -1,7 +1,6 @@
 //! What there is of a session: points, counts, the mesh and its certificate.
 
 use super::TemplateSession;
-use super::grown::certified;
 use crate::session::{PointId, SessionMesh};
 use hexdel_geom::{Certificate, DVec2, VertexId};
 use hexdel_grid::Address;
@@ -66,12 +65,13 @@ impl TemplateSession {
         })
     }
 
-    /// The certificate of the whole mesh, made from scratch.
+    /// The certificate of the whole mesh, made from scratch; the shortest edge promised is as
+    /// that of [`Session::certificate`](crate::Session::certificate).
     ///
     /// # Complexity
     ///
     /// Linear in the mesh.
     pub fn certificate(&self) -> Certificate {
-        certified(&self.grown.mesh().0, &self.all_points().1)
+        self.grown.certificate(&self.all_points().1)
     }
 }
