@@ -2,6 +2,7 @@
 
 mod bench;
 mod ci;
+mod drawing;
 mod prove;
 mod regen;
 mod tidy;

@@ -1,16 +1,18 @@
 //! `cargo xtask regen`: everything in the repository that is computed from
 //! something else in it.
 //!
-//! The records of the snapshot tests, the figures of the documents and the gallery
+//! The records of the snapshot tests, the proof, the figures of the documents and the gallery
 //! are written anew from the fixtures or, with `--check`, compared with what they
 //! would be. All are the same bytes on every platform. What a record is made of is
 //! the business of the tests, what a figure shows that of [`figures`] and
 //! [`gallery`].
 
 mod figures;
+mod fixtures;
 mod gallery;
+mod paper;
 
-use crate::{Outcome, tidy};
+use crate::{Outcome, prove, tidy};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
@@ -21,49 +23,63 @@ type Files = BTreeMap<String, Vec<u8>>;
 /// The documents, below the workspace's folder.
 const DOCS: &str = "docs";
 
-/// Where nothing else may lie, below the documents.
-const FOLDERS: [&str; 2] = [figures::FOLDER, gallery::FOLDER];
+/// The fixtures, below the workspace's folder.
+const FIXTURES: &str = "fixtures";
 
-/// Where the records lie, below the workspace's folder.
+/// Where nothing else may lie, below the documents.
+const FOLDERS: [&str; 3] = [figures::FOLDER, gallery::FOLDER, prove::FOLDER];
+
+/// Where the records lie, below the workspace's folder: of all meshes, and of those that are
+/// small enough to be there as a whole.
 const RECORDS: &str = "crates/hexdel/tests/snapshots";
+const WHOLE: &str = "crates/hexdel/tests/whole";
 
 /// Rebuilds, or compares, everything.
 pub(crate) fn run(check: bool) -> Outcome {
     let root = tidy::root();
-    let mut files = figures::all(&root)?;
-    files.extend(gallery::all(&root).map_err(|fault| fault as Box<dyn std::error::Error>)?);
-    let docs = root.join(DOCS);
+    let computed = fixtures::all()?;
     if check {
-        check_files(&docs, &files)?;
+        check_files(&root, FIXTURES, &computed)?;
     } else {
-        write_files(&docs, &files)?;
+        write_files(&root.join(FIXTURES), &computed)?;
+    }
+    let mut files = figures::all(&root)?;
+    files.extend(prove::files()?);
+    files.extend(gallery::all(&root).map_err(|fault| fault as Box<dyn std::error::Error>)?);
+    if check {
+        check_files(&root, DOCS, &files)?;
+    } else {
+        write_files(&root.join(DOCS), &files)?;
         remove_orphans(&root)?;
     }
     records(&root, check)
 }
 
-fn write_files(docs: &Path, files: &Files) -> Outcome {
-    for name in surplus(docs, files)? {
-        std::fs::remove_file(docs.join(name))?;
+fn write_files(folder: &Path, files: &Files) -> Outcome {
+    for name in surplus(folder, files)? {
+        std::fs::remove_file(folder.join(name))?;
     }
     for (name, bytes) in files {
-        let path = docs.join(name);
-        std::fs::create_dir_all(path.parent().unwrap_or(docs))?;
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
         std::fs::write(path, bytes)?;
     }
     Ok(())
 }
 
-fn check_files(docs: &Path, files: &Files) -> Outcome {
+fn check_files(root: &Path, below: &str, files: &Files) -> Outcome {
+    let folder = root.join(below);
     let mut faults = Vec::new();
     for (name, bytes) in files {
-        match std::fs::read(docs.join(name)) {
+        match std::fs::read(folder.join(name)) {
             Ok(found) if found == *bytes => {}
-            Ok(_) => faults.push(format!("{DOCS}/{name} differs")),
-            Err(error) => faults.push(format!("{DOCS}/{name}: {error}")),
+            Ok(_) => faults.push(format!("{below}/{name} differs")),
+            Err(error) => faults.push(format!("{below}/{name}: {error}")),
         }
     }
-    faults.extend(surplus(docs, files)?.into_iter().map(|name| format!("{DOCS}/{name} is made by nothing")));
+    faults.extend(
+        surplus(&folder, files)?.into_iter().map(|name| format!("{below}/{name} is made by nothing")),
+    );
     if faults.is_empty() {
         Ok(())
     } else {
@@ -88,6 +104,10 @@ fn remove_orphans(root: &Path) -> Outcome {
             std::fs::remove_file(root.join(RECORDS).join(name))?;
         }
     }
+    // Which meshes are small is known when they have been made: all are written anew.
+    for name in names(&root.join(WHOLE))? {
+        std::fs::remove_file(root.join(WHOLE).join(name))?;
+    }
     Ok(())
 }
 
@@ -104,11 +124,12 @@ fn fixture_of(record: &str) -> Option<String> {
 /// Runs the tests that keep the records.
 fn records(root: &Path, check: bool) -> Outcome {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.current_dir(root).args(["test", "--quiet", "--package", "hexdel", "--test", "snapshots"]);
+    cargo.current_dir(root).args(["test", "--quiet", "--package", "hexdel", "--features", "spade"]);
+    cargo.args(["--test", "snapshots", "--test", "whole_meshes"]);
     cargo.env("INSTA_UPDATE", if check { "no" } else { "always" }).env_remove("INSTA_FORCE_PASS");
     if !check {
         // Whether all records are there is a question for afterwards.
-        cargo.args(["--", "templates", "simple", "graphs"]);
+        cargo.args(["--", "templates", "simple", "graphs", "whole"]);
     }
     let status = cargo.status()?;
     if status.success() { Ok(()) } else { Err("the records of the snapshot tests do not hold".into()) }
@@ -149,19 +170,20 @@ mod tests {
 
     #[test]
     fn figures_that_differ_are_missing_or_surplus_are_named() {
-        let docs = std::env::temp_dir().join(format!("hexdel-regen-{}", std::process::id()));
+        let root = std::env::temp_dir().join(format!("hexdel-regen-{}", std::process::id()));
+        let docs = root.join(DOCS);
         let at = |name: &str| format!("{}/{name}", gallery::FOLDER);
         let files: Files = ["a.svg", "b.png"].map(|name| (at(name), name.as_bytes().to_vec())).into();
         write_files(&docs, &files).unwrap();
-        check_files(&docs, &files).unwrap();
+        check_files(&root, DOCS, &files).unwrap();
         std::fs::write(docs.join(at("b.png")), "other").unwrap();
         std::fs::rename(docs.join(at("a.svg")), docs.join(at("c.svg"))).unwrap();
-        let error = check_files(&docs, &files).unwrap_err().to_string();
+        let error = check_files(&root, DOCS, &files).unwrap_err().to_string();
         for part in ["a.svg: ", "b.png differs", "c.svg is made by nothing"] {
             assert!(error.contains(part), "{error}");
         }
         write_files(&docs, &files).unwrap();
         assert_eq!(names(&docs.join(gallery::FOLDER)).unwrap(), ["a.svg", "b.png"]);
-        std::fs::remove_dir_all(&docs).unwrap();
+        std::fs::remove_dir_all(&root).unwrap();
     }
 }

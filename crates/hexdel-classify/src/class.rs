@@ -24,9 +24,11 @@ use hexdel_grid::{Direction, Grid, Hex, TileId, Window};
 pub enum Class {
     /// Subdivided: no vertex of its own; its scaled centre stands for it.
     Subdivided,
-    /// Holds an input point inside the half-size hexagon.
+    /// Holds an input point so near to the centre that the ring around it may stay: inside the
+    /// dodecagon of [`ring_may_stay`](crate::relocate::ring_may_stay), which has the corners of
+    /// the paper's half-size hexagon and is a seventh larger.
     Occupied1,
-    /// Holds an input point outside of the half-size hexagon.
+    /// Holds any other input point: the ring is shifted with it.
     Occupied2,
     /// One fin.
     MovedCenter1,

@@ -37,21 +37,23 @@ impl Offset {
     ///
     /// # Panics
     ///
-    /// In debug builds, if the result is no multiple of `1 / UNIT`.
+    /// If the result is no multiple of `1 / UNIT`, or out of range.
     #[inline]
     pub const fn fraction(of: Hex, numerator: i64, denominator: i64) -> Self {
-        debug_assert!((of.q * numerator * Self::UNIT) % denominator == 0);
-        debug_assert!((of.r * numerator * Self::UNIT) % denominator == 0);
-        Self {
-            q: of.q * numerator * Self::UNIT / denominator,
-            r: of.r * numerator * Self::UNIT / denominator,
+        const fn exact(x: i64, numerator: i64, denominator: i64) -> i64 {
+            let product = x as i128 * numerator as i128 * Offset::UNIT as i128;
+            let quotient = product / denominator as i128;
+            assert!(quotient * denominator as i128 == product, "no multiple of 1 / UNIT");
+            assert!(quotient as i64 as i128 == quotient, "out of range");
+            quotient as i64
         }
+        Self { q: exact(of.q, numerator, denominator), r: exact(of.r, numerator, denominator) }
     }
 
     /// A hexagon's centre.
     #[inline]
     pub const fn of(hex: Hex) -> Self {
-        Self::fraction(hex, 1, 1)
+        Self { q: hex.q * Self::UNIT, r: hex.r * Self::UNIT }
     }
 
     /// The vector in units of a lattice step, Cartesian.
@@ -162,6 +164,12 @@ mod tests {
                 assert_eq!(exact.hold(t), inside, "{t:?} {:?}", angles_deg(t));
             }
         }
+    }
+
+    #[test]
+    #[should_panic(expected = "no multiple")]
+    fn a_fraction_that_is_not_exact_is_refused() {
+        let _ = Offset::fraction(Hex::new(1, 0), 1, 7);
     }
 
     #[test]

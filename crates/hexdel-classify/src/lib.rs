@@ -15,6 +15,11 @@
 //! | [`hexagons`] | the hexagons behind a mesh, for pictures |
 //! | [`dual`] | the mesh: vertices, triangles and stars of three-finned hexagons |
 
+/// The example of the README, so that it stays true.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod class;
 pub mod dual;
 

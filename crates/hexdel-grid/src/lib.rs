@@ -17,6 +17,11 @@
 //! | [`tiles`] | the sparse store: 8 x 8 hexagons a tile, linked in a quadtree |
 //! | [`grid`] | existence, fins, neighbours, subdivision with balance, merging |
 
+/// The example of the README, so that it stays true.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod axial;
 pub mod grid;
 pub mod lattice;

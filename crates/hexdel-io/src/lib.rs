@@ -40,6 +40,11 @@
 //!
 //! Not here: whether segments cross, points coincide or triangles are any good.
 
+/// The example of the README, so that it stays true.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod angles;
 mod asc;
 mod atomic;

@@ -33,6 +33,11 @@
 //! time.
 //! `docs/compact.md` says what was tried and what it cost.
 
+/// The example of the README, so that it stays true.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod angles;
 mod area;
 mod change;

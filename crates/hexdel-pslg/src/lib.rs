@@ -38,6 +38,11 @@
 //! Left to others: reading and writing (`hexdel-io`), and how vertices are
 //! removed (`hexdel-optimize`).
 
+/// The example of the README, so that it stays true.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod carve;
 mod compact;
 mod embed;

@@ -16,6 +16,7 @@
 //! proportion to what changes: near-linear in the output.
 
 mod live;
+mod region;
 mod wanted;
 
 use crate::coarsen;
@@ -29,6 +30,7 @@ use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Address, Grid, Lattice, TileId};
 use rayon::prelude::*;
+use region::{Hull, ROWS_BEYOND};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
@@ -54,6 +56,13 @@ pub enum RefineError {
         /// How many levels there are.
         levels: u8,
     },
+    /// A rule asks for hexagons farther and farther out. Neither set of this crate does;
+    /// a rule of one's own may.
+    #[error("a rule asks for hexagons without end, the last of them {at:?}")]
+    Unbounded {
+        /// The first hexagon that was refused.
+        at: Address,
+    },
     /// The monitor asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -73,6 +82,11 @@ pub struct Refiner {
     waiting: Vec<Queues<3>>,
     /// Points whose hexagon was subdivided: to be moved down.
     moving: Queues<1>,
+    /// Per level: the hull of the tiles in which there was something that no rule of the
+    /// level asked for.
+    began: Vec<Option<Hull>>,
+    /// Rows beyond that hull in which rules are obeyed one hexagon at a time.
+    rows_beyond: i64,
     /// Tiles asked so far, for progress.
     asked: u64,
     /// What changes, if points come and go: then demands shrink as well.
@@ -108,6 +122,8 @@ impl Refiner {
             sites: Sites::default(),
             waiting: Vec::new(),
             moving: Queues::default(),
+            began: Vec::new(),
+            rows_beyond: ROWS_BEYOND,
             asked: 0,
             live: None,
             wanted: BTreeMap::new(),
@@ -255,9 +271,8 @@ impl Refiner {
     /// Asks the open tiles of a level once and subdivides what they want.
     fn round(&mut self, level: u8) -> Result<(), RefineError> {
         let tiles = self.waiting[usize::from(level)].take(OPEN, TileId::new);
-        for (id, bits) in self.ask(level, tiles, RuleSet::must_subdivide) {
-            self.subdivide(level, id, bits);
-        }
+        let asked = self.ask(level, tiles, RuleSet::must_subdivide);
+        self.subdivide_asked(level, asked)?;
         self.sink()
     }
 
@@ -338,13 +353,22 @@ impl Refiner {
         self.sink()
     }
 
-    /// Subdivides hexagons of a tile. The points that occupy them are to be
-    /// moved.
+    /// Subdivides hexagons of a tile for a reason from outside of its level.
     fn subdivide(&mut self, level: u8, id: TileId, bits: u64) {
+        if bits != 0 {
+            self.begin_in(level, id);
+        }
+        self.subdivide_in(level, id, bits);
+    }
+
+    /// Subdivides hexagons of a tile, and says whether there was anything to subdivide. The
+    /// points that occupy them are to be moved.
+    fn subdivide_in(&mut self, level: u8, id: TileId, bits: u64) -> bool {
         let subdivided = self.mark_subdivided(level, id, bits);
         if subdivided != 0 {
             self.changed(level, id, subdivided);
         }
+        subdivided != 0
     }
 
     /// The same without noting the change; returns what was not subdivided yet.
@@ -438,6 +462,7 @@ impl Refiner {
 
     fn changed_if_any(&mut self, change: Option<(u8, TileId, u64)>) {
         if let Some((level, id, bits)) = change.filter(|&(_, _, bits)| bits != 0) {
+            self.begin_in(level, id);
             self.changed(level, id, bits);
         }
     }

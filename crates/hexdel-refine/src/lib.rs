@@ -16,6 +16,11 @@
 //! | `queue` | tiles that wait for their turn |
 //! | `coarsen` | local coarsening, section 5.3 |
 
+/// The example of the README, so that it stays true.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod coarse;
 mod coarsen;
 pub mod engine;

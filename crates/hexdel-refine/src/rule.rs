@@ -59,6 +59,21 @@ pub struct RuleSet {
 }
 
 impl RuleSet {
+    /// Rules of one's own. Refinement ends if they ask for nothing around a
+    /// single subdivided lattice hexagon; otherwise it may be
+    /// [`RefineError::Unbounded`](crate::RefineError::Unbounded).
+    pub fn new(rules: Vec<&'static dyn Rule>) -> Self {
+        Self { about_points: rules.clone(), rules }
+    }
+
+    /// These rules and one more.
+    #[must_use]
+    pub fn with(mut self, rule: &'static dyn Rule) -> Self {
+        self.rules.push(rule);
+        self.about_points.push(rule);
+        self
+    }
+
     /// The rules of section 4.1: angles between 30 and 120 degrees.
     pub fn simple() -> Self {
         Self { rules: simple::RULES.to_vec(), about_points: simple::ABOUT_POINTS.to_vec() }

@@ -55,6 +55,8 @@ pub mod session;
 mod shortest;
 pub mod size;
 mod sized;
+#[cfg(feature = "spade")]
+pub mod spade;
 pub mod triangulation;
 
 pub use hexdel_classify as classify;

@@ -2,63 +2,10 @@
 
 use super::regions::Extreme;
 use super::search::Witness;
-use hexdel_classify::dual::local::LocalTriangle;
+use crate::drawing::Picture;
+use hexdel_classify::dual::local::{self, LocalTriangle};
 use hexdel_classify::{Classes, Offset};
 use hexdel_grid::{Direction, Hex, Window};
-use std::fmt::Write as _;
-
-/// Pixels per lattice step.
-const STEP: f64 = 48.0;
-
-/// A picture: shapes in lattice steps, y upwards, with the box they fill.
-#[derive(Default)]
-struct Picture {
-    shapes: String,
-    low: [f64; 2],
-    high: [f64; 2],
-}
-
-impl Picture {
-    fn new() -> Self {
-        Self { shapes: String::new(), low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] }
-    }
-
-    fn polygon(&mut self, points: &[[f64; 2]], style: &str) {
-        let mut path = String::new();
-        for &p in points {
-            self.low = [self.low[0].min(p[0]), self.low[1].min(p[1])];
-            self.high = [self.high[0].max(p[0]), self.high[1].max(p[1])];
-            let _ = write!(path, "{:.2},{:.2} ", p[0] * STEP, -p[1] * STEP);
-        }
-        let _ = writeln!(self.shapes, "<polygon points=\"{}\" {style}/>", path.trim_end());
-    }
-
-    fn hexagon(&mut self, centre: [f64; 2], size: f64, style: &str) {
-        let corners = [30_f64, 90.0, 150.0, 210.0, 270.0, 330.0].map(|a| {
-            let (s, c) = a.to_radians().sin_cos();
-            let r = size / 3.0_f64.sqrt();
-            [centre[0] + r * c, centre[1] + r * s]
-        });
-        self.polygon(&corners, style);
-    }
-
-    fn dot(&mut self, at: [f64; 2]) {
-        let (x, y) = (at[0] * STEP, -at[1] * STEP);
-        let _ = writeln!(self.shapes, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3\" fill=\"#c2410c\"/>");
-    }
-
-    fn finish(self) -> String {
-        let [x, y] = [self.low[0] * STEP - 4.0, -self.high[1] * STEP - 4.0];
-        let size = [0, 1].map(|i| (self.high[i] - self.low[i]) * STEP + 8.0);
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w:.0}\" height=\"{h:.0}\" \
-             viewBox=\"{x:.1} {y:.1} {w:.1} {h:.1}\" stroke-linejoin=\"round\">\n{}</svg>\n",
-            self.shapes,
-            w = size[0],
-            h = size[1],
-        )
-    }
-}
 
 const LEAF: &str = "fill=\"#ffffff\" stroke=\"#94a3b8\" stroke-width=\"1\"";
 const PATCH: &str = "fill=\"#e0f2fe\" stroke=\"#94a3b8\" stroke-width=\"1\"";
@@ -89,6 +36,58 @@ pub(crate) fn witness(w: &Witness) -> String {
     w.unit.triangles(&classes, |t: LocalTriangle| picture.polygon(&t.corners.map(cartesian), DUAL));
     picture.polygon(&w.corners.map(cartesian), MARKED);
     picture.dot(cartesian(w.corners[w.corner]));
+    picture.finish()
+}
+
+/// A pattern with nothing marked: the units around a top, and those of all lattice triangles
+/// near it.
+pub(crate) fn pattern(subdivided: Window, top: Hex, worst: Option<&Witness>) -> String {
+    let mut picture = Picture::new();
+    for at in top.disc(3) {
+        let style = if subdivided.contains(at) { SUBDIVIDED } else { LEAF };
+        picture.hexagon(centre(at), 1.0, style);
+        if subdivided.contains(at) {
+            picture.hexagon(centre(at), 0.5, SCALED);
+        }
+    }
+    let classes = Classes::of(subdivided);
+    let mut push = |t: LocalTriangle| picture.polygon(&t.corners.map(cartesian), DUAL);
+    for at in top.disc(1) {
+        local::of_star(&classes, at, &mut push);
+        for d in [0, 1] {
+            let (d, next) = (Direction::new(d), Direction::new(d + 1));
+            local::of_lattice_triangle(&classes, [at, at.neighbour(d), at.neighbour(next)], &mut push);
+        }
+    }
+    if let Some(w) = worst {
+        picture.polygon(&w.corners.map(cartesian), MARKED);
+        picture.dot(cartesian(w.corners[w.corner]));
+    }
+    picture.finish()
+}
+
+/// Where the point of an occupied hexagon may lie (paper, Fig. 8): with the ring at its
+/// place, the half-size hexagon within; nearest to one corner, with the ring shifted.
+pub(crate) fn regions(dodecagon: &[[f64; 2]], kites: &[Vec<[f64; 2]>; 2], shift: [f64; 2]) -> String {
+    let mut picture = Picture::new();
+    for (i, shifted) in [false, true].into_iter().enumerate() {
+        picture.move_to([4.2 * i as f64, 0.0]);
+        for at in Hex::ORIGIN.disc(1) {
+            picture.hexagon(centre(at), 1.0, if at.norm() == 0 { PATCH } else { LEAF });
+        }
+        if shifted {
+            for kite in kites {
+                picture.polygon(kite, REGION);
+            }
+        } else {
+            picture.polygon(dodecagon, REGION);
+            picture.hexagon([0.0; 2], 0.5, DUAL);
+        }
+        for d in Direction::ALL {
+            let [x, y] = centre(d.step());
+            picture.dot(if shifted { [x + shift[0], y + shift[1]] } else { [x, y] });
+        }
+    }
     picture.finish()
 }
 

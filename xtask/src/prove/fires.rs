@@ -2,27 +2,22 @@
 //!
 //! A pattern is undecided beyond some hexagons. The product's rules are asked
 //! about it as if all that is undecided were unsubdivided; where one asks for a
-//! hexagon, it is *certain* to do so if what its answer rests on is decided:
+//! hexagon, it is *certain* to do so if it does because of what is decided: see
+//! [`support`](super::support).
 //!
-//! | rule | asks for `v` because of | rests on |
-//! |---|---|---|
-//! | class subdivide | the fins of `v` | 1 step around `v` |
-//! | top with fins | the fins of `v` and of its top | 1 step around both |
-//! | top of two runs | the `MovedCenter3` below `v` | 2 steps around `v` |
-//! | two fins beside run | two `MovedCenter3` and a `MovedCenter2` in a row, of which `v` is the next | 1 step around the three |
-//! | triangle | a lattice triangle at `v` | 2 steps around its corners |
-//!
-//! Nothing is concluded from a rule's silence. Rules not in the table, those on
-//! occupied hexagons, never end a pattern.
+//! Nothing is concluded from a rule's silence. Rules on occupied hexagons never end a
+//! pattern.
 
 use super::pattern::Plan;
-use hexdel_classify::{Class, Classes, View};
+use super::support::{Cause, causes};
+use hexdel_classify::{Classes, View};
 use hexdel_grid::{Direction, Hex, Window};
-use hexdel_refine::{RuleSet, Situation, triangle};
+use hexdel_refine::{Rule, RuleSet, Situation, triangle};
 
 /// The rules, and a table of fins.
 pub(crate) struct Fires {
     pub(crate) rules: RuleSet,
+    causes: Vec<Cause>,
     /// `dead[known][fins]`: whether a hexagon that is not subdivided must be
     /// subdivided for its fins alone, of which only those in `known` are
     /// decided. Made by the product's classification.
@@ -38,7 +33,7 @@ impl Fires {
                 (0..64_u8).filter(|f| f & known == fins as u8 & known).all(|f| irregular[usize::from(f)])
             })
         });
-        Self { dead: dead.collect(), rules }
+        Self { dead: dead.collect(), causes: causes(), rules }
     }
 
     /// Whether some rule certainly asks for a hexagon that is decided not to be
@@ -66,9 +61,20 @@ impl Fires {
         let candidates = known[0].without(subdivided) & Window::with_margin(0);
         self.rules.iter().any(|rule| {
             let asked = rule.must_subdivide(&situation) & candidates;
-            !asked.is_empty()
-                && asked.iter().any(|v| rests_on_known(rule.name(), &situation.classes, known, v))
+            !asked.is_empty() && asked.iter().any(|v| self.is_certain(rule, &situation.classes, known, v))
         })
+    }
+
+    /// Whether a rule asks for `v` because of what is decided.
+    fn is_certain(&self, rule: &dyn Rule, classes: &Classes, known: &[Window; 3], v: Hex) -> bool {
+        if rule.name() == "triangle" {
+            return Direction::ALL.into_iter().any(|d| {
+                let corners = [v, v.neighbour(d), v.neighbour(d.turned(1))];
+                corners.iter().all(|&at| known[2].contains(at))
+                    && triangle::victim_of(classes, corners) == Some(v)
+            });
+        }
+        self.causes.iter().any(|cause| cause.certain(rule, known[0], classes.subdivided, v))
     }
 }
 
@@ -80,40 +86,6 @@ fn is_irregular(rules: &RuleSet, fins: u8) -> bool {
     let situation = Situation::of(View { subdivided, ..View::default() });
     let by_class = rules.iter().find(|rule| rule.name() == "class subdivide");
     by_class.is_some_and(|rule| rule.must_subdivide(&situation).contains(centre))
-}
-
-/// Whether what a rule's answer for `v` rests on is decided.
-fn rests_on_known(rule: &str, c: &Classes, known: &[Window; 3], v: Hex) -> bool {
-    let complete = |at: Hex| known[1].contains(at);
-    match rule {
-        "class subdivide" => complete(v),
-        "top with fins" => {
-            let middle = Direction::ALL.into_iter().find(|d| c.middle[d.index()].contains(v));
-            middle.is_some_and(|d| complete(v) && complete(v.neighbour(d.opposite())))
-        }
-        "top of two runs" => known[2].contains(v),
-        "two fins beside run" => Direction::ALL.into_iter().any(|d| run_before(c, known, v, d)),
-        "triangle" => Direction::ALL.into_iter().any(|d| {
-            let corners = [v, v.neighbour(d), v.neighbour(d.turned(1))];
-            corners.iter().all(|&at| known[2].contains(at)) && triangle::victim_of(c, corners) == Some(v)
-        }),
-        _ => false,
-    }
-}
-
-/// Whether `v` is the next after a decided row of two `MovedCenter3` and a
-/// `MovedCenter2`, the last of the two having its middle fin in direction `d`.
-fn run_before(c: &Classes, known: &[Window; 3], v: Hex, d: Direction) -> bool {
-    [(2, 5, 4), (4, 1, 2)].into_iter().any(|(on, turned, back)| {
-        let on = d.turned(on).step();
-        let last = v - on - on;
-        let (before, two) = (last.neighbour(d.turned(back)), last + on);
-        let inside = |at: Hex| (-2..10).contains(&at.q) && (-2..10).contains(&at.r);
-        [last, before, two].into_iter().all(|at| inside(at) && known[1].contains(at))
-            && c.middle[d.index()].contains(last)
-            && c.middle[d.turned(turned).index()].contains(before)
-            && c.class_of(two) == Class::MovedCenter2
-    })
 }
 
 #[cfg(test)]

@@ -31,7 +31,16 @@ pub(crate) struct Checked {
     pub(crate) fronts: u64,
     /// Pairs of occupied hexagons.
     pub(crate) pairs: u64,
+    /// Patterns in which rules that others imply were held against those.
+    pub(crate) implied: u64,
 }
+
+/// Rules that ask for nothing that another one does not ask for.
+pub(crate) const IMPLIED: [(&str, &str); 3] = [
+    ("balance", "fixed beside fins"),
+    ("adjacent occupied", "rings of two occupied"),
+    ("occupied beside finer", "moved in ring"),
+];
 
 /// A case in which a fact does not hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,7 +59,48 @@ pub(crate) fn check(rules: &RuleSet, stride: usize) -> Result<Checked, Fault> {
     fronts_and_levels(rules, stride, &mut checked)?;
     rings_exist(rules, &mut checked)?;
     pairs(rules, &mut checked)?;
+    implied(rules, stride, &mut checked)?;
     Ok(checked)
+}
+
+/// That the rules of [`IMPLIED`] follow: whatever two steps around a hexagon hold, it is asked
+/// for, or is to exist, by the other one as well.
+fn implied(rules: &RuleSet, stride: usize, checked: &mut Checked) -> Result<(), Fault> {
+    let disc: Vec<Hex> = CENTRE.disc(2).collect();
+    let by = |name: &str| rules.iter().find(|rule| rule.name() == name);
+    for mask in (0..1_u32 << disc.len()).step_by(stride) {
+        let set: Window =
+            disc.iter().enumerate().filter(|(i, _)| mask >> i & 1 == 1).map(|(_, &at)| at).collect();
+        let centre = Window::from_iter([CENTRE]);
+        // The pattern is what is subdivided, around an occupied hexagon of either class; or it
+        // is what is occupied, of either class in turn.
+        let rest = set.without(centre);
+        let mixed: Window = rest.iter().filter(|at| (at.q + 2 * at.r) % 3 == 0).collect();
+        let views = [
+            View { subdivided: rest, occupied1: centre, ..View::default() },
+            View { subdivided: rest, occupied2: centre, ..View::default() },
+            View { occupied1: rest | centre, ..View::default() },
+            View { occupied2: rest | centre, ..View::default() },
+            View { occupied1: rest.without(mixed) | centre, occupied2: mixed, ..View::default() },
+            View { occupied1: mixed, occupied2: rest.without(mixed) | centre, ..View::default() },
+        ];
+        for s in views.map(Situation::of) {
+            checked.implied += 1;
+            for (weak, strong) in IMPLIED.map(|(weak, strong)| (by(weak), by(strong))) {
+                let (Some(weak), Some(strong)) = (weak, strong) else { continue };
+                let asked = weak.must_subdivide(&s).without(strong.must_subdivide(&s))
+                    | weak.must_exist(&s).without(strong.must_exist(&s));
+                if asked.contains(CENTRE) {
+                    return Err(Fault(format!(
+                        "\"{}\" does not follow from \"{}\"",
+                        weak.name(),
+                        strong.name()
+                    )));
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Facts 1 and 2 for what a pattern of the 19 hexagons around one touches.

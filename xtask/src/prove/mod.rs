@@ -10,15 +10,19 @@
 //! | module | what |
 //! |---|---|
 //! | [`pattern`] | units of the dual, their patches, the order of decisions |
+//! | [`support`] | what a rule's demand rests on |
 //! | [`fires`] | when a rule certainly asks for something |
 //! | [`search`] | the enumeration |
+//! | [`tiling`] | why units neither overlap nor leave gaps |
 //! | [`closure`] | whether a pattern occurs in a legal state |
 //! | [`lemmas`] | why one level and one input point can be looked at alone |
 //! | [`regions`] | occupied hexagons, the point anywhere |
 //! | [`levels`] | a bound on the number of levels |
+//! | [`ending`] | why closing a level ends |
 //! | [`report`], [`figures`] | the document |
 
 mod closure;
+mod ending;
 mod figures;
 mod fires;
 mod lemmas;
@@ -27,17 +31,26 @@ mod pattern;
 mod regions;
 mod report;
 mod search;
+mod support;
+mod tiling;
 
 use crate::Outcome;
 use fires::Fires;
 use hexdel_refine::RuleSet;
 use pattern::Unit;
+pub(crate) use report::FOLDER;
 use search::Found;
+use std::collections::BTreeMap;
+
+/// Files by their names.
+type Files = BTreeMap<String, Vec<u8>>;
 
 /// All that was enumerated and checked.
 pub(crate) struct Proof {
     found: Found,
     lemmas: Result<lemmas::Checked, lemmas::Fault>,
+    support: Result<support::Checked, lemmas::Fault>,
+    ending: Result<u64, lemmas::Fault>,
     regions: Vec<regions::Region>,
     levels: Vec<levels::Trial>,
 }
@@ -46,7 +59,9 @@ impl Proof {
     /// Enumerates; `reduced`, one unit of each kind and a sample of the
     /// patterns for the facts that separate levels and points.
     pub(crate) fn make(rules: RuleSet, reduced: bool) -> Result<Self, Box<dyn std::error::Error>> {
-        let lemmas = lemmas::check(&rules, if reduced { 7 } else { 1 });
+        let stride = if reduced { 7 } else { 1 };
+        let lemmas = lemmas::check(&rules, stride);
+        let (support, ending) = (support::check(&rules, stride), ending::check(&rules));
         let fires = Fires::new(rules);
         let units = if reduced { Unit::representatives() } else { Unit::all() };
         let mut found = Found::default();
@@ -58,16 +73,27 @@ impl Proof {
             found.merge(part);
         }
         let levels = if reduced { Vec::new() } else { levels::trials()? };
-        Ok(Self { found, lemmas, regions: regions::all(), levels })
+        Ok(Self { found, lemmas, support, ending, regions: regions::all(), levels })
     }
 
     /// Whether nothing broke the bounds.
     pub(crate) fn holds(&self) -> bool {
         self.found.proved()
             && self.lemmas.is_ok()
+            && self.support.is_ok()
+            && self.ending.is_ok()
+            && self.found.shortest.is_some_and(is_long_enough)
             && self.regions.iter().all(|r| r.holds)
             && self.levels.iter().all(|t| t.finest <= t.bound)
     }
+}
+
+/// Whether the square of an edge's length, as [`Found::shortest`] has it, is at least that of
+/// [`regions::SHORTEST`].
+fn is_long_enough(square: i64) -> bool {
+    let [p, q] = regions::SHORTEST;
+    let unit = hexdel_classify::Offset::UNIT;
+    q * q * square >= 2 * p * p * unit * unit
 }
 
 /// Proves, prints what was found, and writes `docs/proof.md` with its figures
@@ -85,11 +111,49 @@ pub(crate) fn run(without: &[String], reduced: bool) -> Outcome {
         return Err("the bounds do not hold".into());
     }
     if without.is_empty() && !reduced {
-        // What the paper's rules leave open is part of the document.
-        let weaker = Proof::make(RuleSet::extended().without("triangle").without("top with fins"), true)?;
-        report::write(&crate::tidy::root().join("docs"), &proof, &weaker)?;
+        let docs = crate::tidy::root().join("docs");
+        std::fs::create_dir_all(docs.join(FOLDER))?;
+        for (name, bytes) in document(&proof)? {
+            std::fs::write(docs.join(name), bytes)?;
+        }
     }
     Ok(())
+}
+
+/// The figures of the paper that come from patterns, by name: what "two fins beside run" is
+/// for (Fig. 6), and the regions of points (Fig. 8).
+pub(crate) fn paper_figures() -> Result<Files, Box<dyn std::error::Error>> {
+    let rules = RuleSet::extended();
+    let fires = Fires::new(rules.clone().without("two fins beside run"));
+    let found = search::search(Unit::representatives()[1], &fires);
+    let off = |w: &search::Witness| (w.angle_deg - 60.0).abs();
+    let few = found.counterexamples.iter().map(|w| w.subdivided.count()).min().unwrap_or_default();
+    let fewest = found.counterexamples.iter().filter(|w| w.subdivided.count() == few);
+    let worst = fewest.max_by(|a, b| off(a).total_cmp(&off(b))).ok_or("the rule is for nothing")?;
+    let closed = closure::closed(worst.subdivided, &rules, |_| true).ok_or("the pattern does not close")?;
+    let near = hexdel_grid::Window::with_margin(3);
+    let after = near.iter().filter(|&at| closed.is_subdivided(hexdel_grid::Address::new(0, at))).collect();
+    let figures = [
+        ("fig-06-two-fins-beside-run.svg", figures::pattern(worst.subdivided, pattern::CENTRE, Some(worst))),
+        ("fig-06-subdivided.svg", figures::pattern(after, pattern::CENTRE, None)),
+        ("fig-08-regions.svg", regions::figure()),
+    ];
+    Ok(figures.map(|(name, svg)| (name.to_owned(), svg.into_bytes())).into())
+}
+
+/// `docs/proof.md` and its figures, by their paths below `docs`.
+pub(crate) fn files() -> Result<Files, Box<dyn std::error::Error>> {
+    let proof = Proof::make(RuleSet::extended(), false)?;
+    if !proof.holds() {
+        return Err(format!("the bounds do not hold\n{}", report::summary(&proof)).into());
+    }
+    document(&proof)
+}
+
+fn document(proof: &Proof) -> Result<Files, Box<dyn std::error::Error>> {
+    // What the paper's rules leave open is part of the document.
+    let weaker = Proof::make(RuleSet::extended().without("triangle").without("top with fins"), true)?;
+    Ok(report::files(proof, &weaker))
 }
 
 #[cfg(test)]
@@ -154,6 +218,23 @@ mod tests {
         // two coarse hexagons give 39.5, and more where they turn.
         assert!((least - 33.2556).abs() < 1e-4, "{least}");
         assert!((greatest - 93.3585).abs() < 1e-4, "{greatest}");
+    }
+
+    #[test]
+    fn four_fins_in_a_row_have_no_template() {
+        let rules = RuleSet::extended().without("class subdivide");
+        let fins = [0, 1, 2, 3].map(|d| pattern::CENTRE.neighbour(hexdel_grid::Direction::new(d)));
+        let fins: hexdel_grid::Window = fins.into_iter().collect();
+        // The other rules leave them as they are.
+        let plan = pattern::Plan::new(Unit::Triangle { up: true });
+        assert_eq!(closure::around(&plan, fins, &rules), Some(fins));
+        let mut angles = Vec::new();
+        Unit::Triangle { up: true }.triangles(&hexdel_classify::Classes::of(fins), |t| {
+            let p = t.corners.map(hexdel_classify::Offset::cartesian);
+            angles.push((p[1] - p[0]).angle_to(p[2] - p[0]).to_degrees());
+        });
+        assert!(angles.iter().any(|angle| (angle - 30.0).abs() < 1e-9), "{angles:?}");
+        assert!(closure::around(&plan, fins, &RuleSet::extended()).is_none());
     }
 
     #[test]

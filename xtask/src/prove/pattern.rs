@@ -52,7 +52,7 @@ impl Unit {
 
     /// The corners of the lattice triangle, counter-clockwise; for a star,
     /// three times its hexagon's top.
-    fn anchors(self) -> [Hex; 3] {
+    pub(crate) fn anchors(self) -> [Hex; 3] {
         let step = |i| Direction::new(i).step();
         match self {
             Self::Triangle { up: true } => [CENTRE, CENTRE + step(0), CENTRE + step(1)],

@@ -23,6 +23,10 @@ use hexdel_grid::{Direction, Hex, Located};
 /// regions have corners at 2/7 of a step.
 const SEVENTH: i64 = 7;
 
+/// The shortest edge that there is, as a fraction of the spacing of the finest level: that
+/// from a point at 2/7 of a step on an axis to the neighbour on it.
+pub(crate) const SHORTEST: [i64; 2] = [5, 7];
+
 /// The extreme angles of one sort of triangle, and where they are attained.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extreme {
@@ -43,6 +47,8 @@ pub(crate) struct Region {
     pub(crate) cases: u64,
     /// Whether all keep the bounds.
     pub(crate) holds: bool,
+    /// The shortest edge, in steps, no less than [`SHORTEST`].
+    pub(crate) shortest: f64,
     /// The smallest angle.
     pub(crate) least: Extreme,
     /// The largest angle.
@@ -69,6 +75,14 @@ fn kites(d: Direction) -> [Vec<Offset>; 2] {
         vec![axis(d, 2, 7), axis(d, 1, 2), corner, inner],
         vec![inner, corner, axis(next, 1, 2), axis(next, 2, 7)],
     ]
+}
+
+/// Both regions, drawn (paper, Fig. 8).
+pub(crate) fn figure() -> String {
+    let corner = Direction::ALL[0];
+    let all = |polygon: Vec<Offset>| polygon.into_iter().map(cartesian).collect::<Vec<_>>();
+    let shift = shift_for(&kites(corner)[0], corner).cartesian();
+    super::figures::regions(&all(dodecagon()), &kites(corner).map(all), [shift.x, shift.y])
 }
 
 fn axis(d: Direction, numerator: i64, denominator: i64) -> Offset {
@@ -143,6 +157,7 @@ fn shifted_ring() -> Region {
 struct Tally {
     cases: u64,
     broken: bool,
+    shortest: Option<f64>,
     least: Option<Extreme>,
     greatest: Option<Extreme>,
 }
@@ -154,6 +169,7 @@ impl Tally {
             name,
             cases: self.cases,
             holds: !self.broken,
+            shortest: self.shortest.unwrap_or(f64::NAN),
             least: self.least.unwrap_or(none),
             greatest: self.greatest.unwrap_or(none),
         }
@@ -163,6 +179,9 @@ impl Tally {
         self.cases += 1;
         self.broken |= !ExactBounds::EXTENDED.hold(t);
         self.note(t.map(cartesian));
+        for i in 0..3 {
+            self.length(&Edge::new(t[i], t[i], t[(i + 1) % 3], t[(i + 1) % 3]));
+        }
     }
 
     /// A triangle `(p, a, b)`, counter-clockwise, for all `p` of a polygon.
@@ -178,6 +197,11 @@ impl Tally {
             let (u, v) = (polygon[i], polygon[(i + 1) % polygon.len()]);
             let edge = Edge::new(u, v, a, b);
             self.broken |= !edge.acute();
+            // A point is nearest to a corner outside of the polygon on one of its edges.
+            for corner in [a, b] {
+                self.broken |= contains(polygon, corner);
+                self.length(&Edge::new(u, v, corner, corner));
+            }
             if let Some(t) = edge.lowest() {
                 let (u, v) = (cartesian(u), cartesian(v));
                 let p = [u[0] + t * (v[0] - u[0]), u[1] + t * (v[1] - u[1])];
@@ -188,6 +212,16 @@ impl Tally {
         // none of the polygons.
         let twice = |o: Offset| o + o;
         self.broken |= contains(&polygon.iter().map(|&o| twice(o)).collect::<Vec<_>>(), a + b);
+    }
+
+    /// Notes the least distance of a corner to an edge of the polygon.
+    fn length(&mut self, edge: &Edge) {
+        let (twice, denominator) = edge.least();
+        let step = i128::from(SEVENTH * Offset::UNIT);
+        let [p, q] = SHORTEST.map(i128::from);
+        self.broken |= q * q * twice < 2 * p * p * step * step * denominator;
+        let length = (twice as f64 / (2.0 * denominator as f64)).sqrt() / step as f64;
+        self.shortest = Some(self.shortest.map_or(length, |least| least.min(length)));
     }
 
     fn note(&mut self, t: [[f64; 2]; 3]) {
@@ -221,6 +255,14 @@ impl Edge {
     /// Whether the least value lies within the edge.
     fn is_inside(&self) -> bool {
         self.linear <= 0 && -self.linear <= 2 * self.square
+    }
+
+    /// The least value on the edge, as a fraction.
+    fn least(&self) -> (i128, i128) {
+        if self.square > 0 && self.is_inside() {
+            return (4 * self.square * self.constant - self.linear * self.linear, 4 * self.square);
+        }
+        (self.constant.min(self.square + self.linear + self.constant), 1)
     }
 
     /// Whether `D >= 0` all along the edge, given that it is at its ends.

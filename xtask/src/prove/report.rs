@@ -7,7 +7,6 @@ use super::search::Witness;
 use hexdel_classify::Classes;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// The document's text, with places for tables.
 const TEMPLATE: &str = include_str!("proof.template.md");
@@ -30,17 +29,31 @@ pub(crate) fn summary(proof: &Proof) -> String {
     for t in &proof.levels {
         let _ = writeln!(out, "finest level {:>2}, bound {:>2}  {}", t.finest, t.bound, t.name);
     }
-    match &proof.lemmas {
-        Ok(c) => {
-            let _ = writeln!(
-                out,
-                "levels: {} cases, fronts: {}, pairs of points: {}",
-                c.levels, c.fronts, c.pairs
-            );
-        }
-        Err(fault) => {
-            let _ = writeln!(out, "NOT separate: {fault}");
-        }
+    let lines = [
+        proof.lemmas.clone().map(|c| {
+            format!(
+                "levels: {} cases, fronts: {}, pairs of points: {}, implied rules: {}",
+                c.levels, c.fronts, c.pairs, c.implied
+            )
+        }),
+        proof
+            .support
+            .clone()
+            .map(|c| format!("what demands rest on: {} patterns, classes: {}", c.demands, c.classes)),
+        proof.ending.clone().map(|views| format!("views of a lattice hexagon: {views}")),
+    ];
+    for line in lines {
+        let _ = writeln!(out, "{}", line.unwrap_or_else(|fault| format!("NOT so: {fault}")));
+    }
+    let _ = writeln!(
+        out,
+        "units that fit: {} patterns, {} do not; shortest edge {:.6} spacings of the finest level",
+        proof.found.fitted,
+        proof.found.gaps.len(),
+        shortest(proof)
+    );
+    for gap in proof.found.gaps.iter().take(5) {
+        let _ = writeln!(out, "GAP {gap}");
     }
     let f = &proof.found;
     let _ = writeln!(
@@ -64,6 +77,12 @@ pub(crate) fn summary(proof: &Proof) -> String {
     out
 }
 
+/// The shortest edge of the patterns without points, in spacings of the finest level.
+fn shortest(proof: &Proof) -> f64 {
+    let unit = hexdel_classify::Offset::UNIT as f64;
+    proof.found.shortest.map_or(f64::NAN, |square| (square as f64 / 2.0).sqrt() / unit)
+}
+
 /// Counterexamples by kind: how many, and the worst.
 fn counterexamples(proof: &Proof) -> BTreeMap<String, (u64, Witness)> {
     let off = |w: &Witness| (w.angle_deg - 60.0).abs();
@@ -80,36 +99,52 @@ fn counterexamples(proof: &Proof) -> BTreeMap<String, (u64, Witness)> {
     kinds
 }
 
-/// Writes the document and its figures; `weaker` is what is found without the
-/// rules that the paper lacks.
-pub(crate) fn write(docs: &Path, proof: &Proof, weaker: &Proof) -> std::io::Result<()> {
-    let folder = docs.join("figures");
-    std::fs::create_dir_all(&folder)?;
-    let mut figures = Figures { folder: &folder, count: 0 };
+/// Where the figures lie, below the documents.
+pub(crate) const FOLDER: &str = "figures/proof";
+
+/// The document and its figures, by their paths below the documents; `weaker` is what is found
+/// without the rules that the paper lacks.
+pub(crate) fn files(proof: &Proof, weaker: &Proof) -> BTreeMap<String, Vec<u8>> {
+    let mut figures = Figures::default();
     let checked = proof.lemmas.clone().unwrap_or_default();
+    let support = proof.support.clone().unwrap_or_default();
     let text = TEMPLATE
         .replace("{{totals}}", &totals(proof))
         .replace("{{kinds}}", &kinds(proof))
-        .replace("{{witnesses}}", &witnesses(proof, &mut figures)?)
+        .replace("{{witnesses}}", &witnesses(proof, &mut figures))
         .replace("{{facts}}", &facts(&checked))
-        .replace("{{regions}}", &regions(proof, &mut figures)?)
+        .replace("{{regions}}", &regions(proof, &mut figures))
+        .replace(
+            "{{support}}",
+            &format!(
+                "{} patterns of causes, and {} of a hexagon's class and place.",
+                support.demands, support.classes
+            ),
+        )
+        .replace(
+            "{{tiling}}",
+            &format!("{} patterns, {} faults.", proof.found.fitted, proof.found.gaps.len()),
+        )
+        .replace("{{shortest}}", &format!("{:.4}", shortest(proof)))
+        .replace("{{ending}}", &format!("{} views", proof.ending.clone().unwrap_or_default()))
         .replace("{{levels}}", &levels(proof))
-        .replace("{{counterexamples}}", &weaker_table(weaker, &mut figures)?);
-    std::fs::write(docs.join("proof.md"), text)
+        .replace("{{counterexamples}}", &weaker_table(weaker, &mut figures));
+    let mut files = figures.files;
+    files.insert("proof.md".to_owned(), text.into_bytes());
+    files
 }
 
-struct Figures<'a> {
-    folder: &'a Path,
-    count: usize,
+#[derive(Default)]
+struct Figures {
+    files: BTreeMap<String, Vec<u8>>,
 }
 
-impl Figures<'_> {
-    /// Writes a figure and returns the Markdown that shows it.
-    fn add(&mut self, svg: &str, caption: &str) -> std::io::Result<String> {
-        self.count += 1;
-        let name = format!("proof-{:02}.svg", self.count);
-        std::fs::write(self.folder.join(&name), svg)?;
-        Ok(format!("![{caption}](figures/{name})"))
+impl Figures {
+    /// Keeps a figure and returns the Markdown that shows it.
+    fn add(&mut self, svg: String, caption: &str) -> String {
+        let name = format!("{FOLDER}/{:02}.svg", self.files.len() + 1);
+        self.files.insert(name.clone(), svg.into_bytes());
+        format!("![{caption}]({name})")
     }
 }
 
@@ -145,17 +180,17 @@ fn kinds(proof: &Proof) -> String {
     out
 }
 
-fn witnesses(proof: &Proof, figures: &mut Figures) -> std::io::Result<String> {
+fn witnesses(proof: &Proof, figures: &mut Figures) -> String {
     let mut out = String::from("| kind | smallest angle | largest angle |\n|---|---|---|\n");
     for (name, k) in &proof.found.kinds {
         let (Some(least), Some(greatest)) = (k.least, k.greatest) else { continue };
         let mut show = |w: &Witness| {
             let caption = format!("{:.4} degrees", w.angle_deg);
-            figures.add(&figures::witness(w), &caption).map(|figure| format!("{figure}<br>{caption}"))
+            format!("{}<br>{caption}", figures.add(figures::witness(w), &caption))
         };
-        let _ = writeln!(out, "| {name} | {} | {} |", show(&least)?, show(&greatest)?);
+        let _ = writeln!(out, "| {name} | {} | {} |", show(&least), show(&greatest));
     }
-    Ok(out)
+    out
 }
 
 fn facts(c: &Checked) -> String {
@@ -165,14 +200,20 @@ fn facts(c: &Checked) -> String {
     )
 }
 
-fn regions(proof: &Proof, figures: &mut Figures) -> std::io::Result<String> {
-    let mut out = String::from("| triangles | cases | angles | smallest |\n|---|---|---|---|\n");
+fn regions(proof: &Proof, figures: &mut Figures) -> String {
+    let mut out = String::from(
+        "| triangles | cases | angles | shortest edge | smallest angle |\n|---|---|---|---|---|\n",
+    );
     for r in &proof.regions {
-        let figure = figures.add(&figures::occupied(&r.least), r.name)?;
+        let figure = figures.add(figures::occupied(&r.least), r.name);
         let (low, high) = (r.least.angle_deg, r.greatest.angle_deg);
-        let _ = writeln!(out, "| {} | {} | {low:.4} .. {high:.4} | {figure} |", r.name, r.cases);
+        let _ = writeln!(
+            out,
+            "| {} | {} | {low:.4} .. {high:.4} | {:.4} | {figure} |",
+            r.name, r.cases, r.shortest
+        );
     }
-    Ok(out)
+    out
 }
 
 fn levels(proof: &Proof) -> String {
@@ -184,11 +225,11 @@ fn levels(proof: &Proof) -> String {
     out
 }
 
-fn weaker_table(weaker: &Proof, figures: &mut Figures) -> std::io::Result<String> {
+fn weaker_table(weaker: &Proof, figures: &mut Figures) -> String {
     let mut out = String::from("| kind | patterns | worst angle | |\n|---|---|---|---|\n");
     for (name, (count, worst)) in counterexamples(weaker) {
-        let figure = figures.add(&figures::witness(&worst), &name)?;
+        let figure = figures.add(figures::witness(&worst), &name);
         let _ = writeln!(out, "| {name} | {count} | {:.4} | {figure} |", worst.angle_deg);
     }
-    Ok(out)
+    out
 }

@@ -12,6 +12,7 @@
 use super::closure;
 use super::fires::Fires;
 use super::pattern::{Plan, Unit};
+use super::tiling;
 use hexdel_classify::dual::local::{LocalTriangle, Place};
 use hexdel_classify::{Classes, ExactBounds, Offset};
 use hexdel_grid::Window;
@@ -58,6 +59,13 @@ pub(crate) struct Kind {
 pub(crate) struct Found {
     /// By name.
     pub(crate) kinds: BTreeMap<String, Kind>,
+    /// Patterns in which the unit was held against the units around it.
+    pub(crate) fitted: u64,
+    /// Patterns in which units overlap or leave gaps: the proof has failed.
+    pub(crate) gaps: Vec<String>,
+    /// The least square of an edge's length, in units of `1 / (2 UNIT^2)` of the square of the
+    /// spacing of the finest level that the unit shows to have leaves.
+    pub(crate) shortest: Option<i64>,
     /// Patterns begun and given up or completed.
     pub(crate) steps: u64,
     /// Patterns whose triangles break the bounds and that no continuation
@@ -77,13 +85,19 @@ pub(crate) struct Found {
 impl Found {
     /// Whether every triangle of every legal pattern keeps the bounds.
     pub(crate) fn proved(&self) -> bool {
-        self.counterexamples.is_empty() && self.undecided.is_empty() && self.unprotected.is_empty()
+        self.counterexamples.is_empty()
+            && self.undecided.is_empty()
+            && self.unprotected.is_empty()
+            && self.gaps.is_empty()
     }
 
     /// Adds what another search found.
     pub(crate) fn merge(&mut self, other: Self) {
         self.steps += other.steps;
         self.refused += other.refused;
+        self.fitted += other.fitted;
+        self.gaps.extend(other.gaps);
+        self.shortest = self.shortest.into_iter().chain(other.shortest).min();
         self.counterexamples.extend(other.counterexamples);
         self.undecided.extend(other.undecided);
         self.unprotected.extend(other.unprotected);
@@ -199,6 +213,8 @@ impl Search<'_> {
         let (plan, classes) = (self.plan, Classes::of(pattern));
         let (mut triangles, mut broken) = (Vec::new(), None);
         plan.unit.triangles(&classes, |t| triangles.push(t));
+        self.found.fitted += 1;
+        self.found.gaps.extend(tiling::check(plan.unit, &classes).err());
         for t in &triangles {
             self.found.unprotected.extend(unprotected(&classes, t));
             if broken.is_none() && !ExactBounds::EXTENDED.hold(t.corners) {
@@ -217,6 +233,8 @@ impl Search<'_> {
         kind.patterns += 1;
         kind.orbits += u64::from(self.plan.is_least(pattern));
         kind.triangles += triangles.len() as u64;
+        let lengths = triangles.iter().map(|t| shortest(t, pattern));
+        self.found.shortest = self.found.shortest.into_iter().chain(lengths).min();
         let mut closed = None;
         for witness in triangles.iter().flat_map(|t| self.plan.witnesses(pattern, t)) {
             let angle = witness.angle_deg;
@@ -347,6 +365,14 @@ impl Plan {
         let holds = [(a, b, c), (b, c, a), (c, a, b)].map(|(a, b, c)| ExactBounds::EXTENDED.hold_at(a, b, c));
         self.witnesses(subdivided, t).into_iter().filter(move |w| !holds[w.corner])
     }
+}
+
+/// The square of a triangle's shortest edge, as [`Found::shortest`] has it. Where something is
+/// subdivided, the next level has leaves.
+fn shortest(t: &LocalTriangle, subdivided: Window) -> i64 {
+    let [a, b, c] = t.corners;
+    let scale = if subdivided.is_empty() { 1 } else { 4 };
+    [b - a, c - b, a - c].map(|side| scale * side.dot2(side)).into_iter().min().unwrap_or(i64::MAX)
 }
 
 /// The finer corners of a triangle, other than inserted points, that lie

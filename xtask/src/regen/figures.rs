@@ -6,11 +6,14 @@
 //! certified before it is drawn.
 
 use super::Files;
+use crate::prove;
 use hexdel::classify::hexagons::hexagons;
 use hexdel::classify::{Domain, Occupant, Relocation, extract};
+use hexdel::geom::Pslg;
 use hexdel::geom::{CertifyOptions, certify};
 use hexdel::grid::{Address, Direction, Grid, Hex, Lattice};
-use hexdel::io::{MeshFormat, MeshView, Overlay, Picture, read_points, write_mesh_to};
+use hexdel::io::{MarkedEdge, MeshFormat, MeshView, Overlay, Picture, read_points, write_mesh_to};
+use hexdel::pslg::{Extent, Options, SegmentMethod, validate};
 use hexdel::refine::{Refiner, RuleSet};
 use hexdel::{AngleBounds, DVec2, Mesher, Method, TriMesh, Unwatched};
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,6 +36,9 @@ pub(super) fn all(root: &Path) -> Result<Files, Box<dyn Error>> {
     figures.extend(of_templates()?);
     figures.extend(of_points()?);
     figures.extend(of_methods(root, "plane100")?);
+    figures.extend(super::paper::all());
+    figures.extend(prove::paper_figures()?);
+    figures.extend(of_segments(root)?);
     Ok(figures.into_iter().map(|(name, svg)| (format!("{FOLDER}/{name}"), svg)).collect())
 }
 
@@ -75,6 +81,41 @@ fn of_methods(root: &Path, name: &str) -> Figures {
         Ok((format!("{name}-{suffix}.svg"), drawing.svg(Show::Mesh)?))
     };
     methods.into_iter().map(draw).collect()
+}
+
+/// Segments by the paper's own section 7: two that meet at a point (Fig. 14), and the letters,
+/// all of them and a close-up (Fig. 15).
+fn of_segments(root: &Path) -> Figures {
+    let corner = [(0.0, 0.0), (3.0, 0.4), (2.6, 1.5)].map(|(x, y)| DVec2::new(x, y));
+    let mut two = Pslg::from_points(corner.to_vec());
+    two.segments = vec![[0, 1], [0, 2]];
+    let letters = read_points(root.join("fixtures/graphs/letters.poly"))?;
+    let close_up = [DVec2::new(3.6, 0.9), DVec2::new(4.7, 1.8)];
+    let drawn = [
+        (
+            "fig-14-two-segments.svg",
+            &two,
+            Extent::Hexagon,
+            Some([DVec2::new(-0.5, -0.4), DVec2::new(1.9, 1.3)]),
+        ),
+        ("fig-15-letters-paper.svg", &letters, Extent::Inside, None),
+        ("fig-15-letters-paper-close-up.svg", &letters, Extent::Inside, Some(close_up)),
+    ];
+    let draw = |(name, graph, extent, zoom): (&str, &Pslg, Extent, Option<[DVec2; 2]>)| {
+        let options = Options::new().method(SegmentMethod::Paper).extent(extent);
+        let made = hexdel::pslg::mesh(&validate(graph)?, &options, &Unwatched)?;
+        let edges: Vec<_> =
+            made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect();
+        let mut picture = Picture::default();
+        picture.size_px = LARGE_PX;
+        picture.bounds_deg = [AngleBounds::EXTENDED.min_deg(), AngleBounds::EXTENDED.max_deg()];
+        picture.zoom = zoom;
+        let view = MeshView::new(&made.mesh).with_marked_edges(&edges).with_picture(picture);
+        let mut svg = Vec::new();
+        write_mesh_to(&mut svg, MeshFormat::Svg, &view, name)?;
+        Ok((name.to_owned(), svg))
+    };
+    drawn.into_iter().map(draw).collect()
 }
 
 /// Subdivision and balance (paper, Fig. 1 and 2), with the plain dual.

@@ -82,7 +82,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
     /// Do not merge hexagons again where all rules allow it
-    #[arg(long, hide = true)]
+    #[arg(long)]
     no_coarsening: bool,
     /// Threads to use; the mesh does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]

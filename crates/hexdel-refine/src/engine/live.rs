@@ -422,6 +422,7 @@ impl Refiner {
             let (id, _) = refiner.grid.tile_of(Address::new(level, first));
             refiner.grid.tiles_mut().require_margin(level, id, u64::MAX);
             refiner.grid.tiles_mut().get_mut(level, id).subdivided = bits;
+            refiner.begin_in(level, id);
         }
         refiner.restore_sites(sites)?;
         // The queues are as long as there are levels.
@@ -451,6 +452,7 @@ impl Refiner {
                 return Err(RestoreError::NoLeaf { site: i, level });
             }
             planes.marks[site.plane(&lattice)] |= 1 << bit;
+            self.begin_in(level, tile);
             let id = self.sites.ids()[i];
             *self.sites.get_mut(id) = site;
             self.sites.enter(id, tile);
