@@ -3,6 +3,7 @@
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::input::{is_stream, names, warn_of};
 use crate::outputs::Outputs;
+use hexdel::Mesher;
 use hexdel::geom::Pslg;
 use hexdel_io::{
     Columns, MeshData, MeshFormat, PointFormat, PointReader, ReadError, WriteError, holds_mesh,
@@ -64,6 +65,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
         let found = if matches!(content, Content::Mesh(_)) { "a mesh" } else { "points" };
         return Err(Failure::Conversion { file: name(&args.input, "input"), found, format: output });
     }
+    let content = seeded(content, &output, &args.input)?;
     report_losses(&content, &output, &args.output);
     if is_stream(&args.output) {
         return to_stdout(&content, &output);
@@ -201,6 +203,21 @@ fn name(path: &Path, stream: &str) -> String {
 
 fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
+}
+
+/// For `.poly`, which has no polygons, the holes and regions that they are.
+fn seeded(content: Content, output: &str, input: &Path) -> Result<Content, Failure> {
+    match content {
+        Content::Points(points)
+            if !points.polygons.is_empty() && PointFormat::from_name(output) == Some(PointFormat::Poly) =>
+        {
+            let file = name(input, "input");
+            let prepared = Mesher::new().prepared_pslg(&points);
+            let failure = |source| Failure::Mesh { file, source: Box::new(source), more: String::new() };
+            Ok(Content::Points(prepared.map_err(failure)?))
+        }
+        content => Ok(content),
+    }
 }
 
 /// Says what the format has no place for.

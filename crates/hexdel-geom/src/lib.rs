@@ -55,7 +55,7 @@ pub use mesh::{TriMesh, TriangleId, VertexId};
 pub use monitor::{Cancelled, Monitor, Phase, Unwatched};
 pub use points::{PointSet, PointsError};
 pub use predicates::{incircle, orient2d};
-pub use pslg::{Pslg, PslgLayoutError, Region};
+pub use pslg::{Polygon, Pslg, PslgLayoutError, Region};
 pub use rounding::settle_rounding;
 pub use segment::point_on_segment;
 pub use segments::{MissingSegment, SegmentCheck, check_segments};

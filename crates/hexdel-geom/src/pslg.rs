@@ -39,6 +39,10 @@ pub struct Pslg {
     pub holes: Vec<DVec2>,
     /// Parts of the plane with an attribute and, at will, a size limit.
     pub regions: Vec<Region>,
+    /// Areas with an attribute and, at will, a size limit, given by their
+    /// borders. If there are any, what none of them covers is outside.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub polygons: Vec<Polygon>,
     /// A marker of each point; empty if there are none.
     pub point_markers: Vec<i32>,
     /// A marker of each segment; empty if there are none.
@@ -60,6 +64,25 @@ pub struct Region {
     pub max_area: Option<f64>,
 }
 
+/// An area given by its border: what lies in its first ring and in none of the
+/// others.
+///
+/// A point lies in a ring if a ray from it crosses the ring's segments an odd
+/// number of times. So a ring may touch itself, and neither the order of its
+/// segments nor their direction matters. Unlike a [`Region`], a polygon is not
+/// divided by other segments that pass through it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Polygon {
+    /// The outer ring, then those of its holes, each as indices of
+    /// [`Pslg::segments`]. Rings are closed.
+    pub rings: Vec<Vec<u32>>,
+    /// What the triangles of the polygon are to be labelled with.
+    pub attribute: f64,
+    /// The largest triangle area wanted, in square units of the input.
+    #[serde(default)]
+    pub max_area: Option<f64>,
+}
+
 /// Why the arrays of a [`Pslg`] do not fit together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -73,6 +96,16 @@ pub enum PslgLayoutError {
         point: u32,
         /// How many points there are.
         points: usize,
+    },
+    /// A polygon has a segment that is not there.
+    #[error("polygon {polygon} has segment {segment}, of {segments} segments")]
+    PolygonSegment {
+        /// Index of the polygon.
+        polygon: usize,
+        /// The index it names.
+        segment: u32,
+        /// How many segments there are.
+        segments: usize,
     },
     /// A marker or attribute array has neither one entry per item nor none.
     #[error("{array} has {found} entries instead of {expected}")]
@@ -102,7 +135,8 @@ impl Pslg {
     }
 
     /// Checks that the arrays fit together: every segment ends at points of the
-    /// graph, marker arrays are empty or complete, attributes are complete.
+    /// graph, polygons have segments of the graph, marker arrays are empty or
+    /// complete, attributes are complete.
     ///
     /// # Errors
     ///
@@ -110,7 +144,7 @@ impl Pslg {
     ///
     /// # Complexity
     ///
-    /// Linear in the number of segments.
+    /// Linear in the number of segments and of those of polygons.
     pub fn check_layout(&self) -> Result<(), PslgLayoutError> {
         let points = self.points.len();
         for (segment, ends) in self.segments.iter().enumerate() {
@@ -118,12 +152,17 @@ impl Pslg {
                 return Err(PslgLayoutError::SegmentEnd { segment, point, points });
             }
         }
+        let segments = self.segments.len();
+        for (polygon, area) in self.polygons.iter().enumerate() {
+            if let Some(&segment) = area.rings.iter().flatten().find(|&&s| s as usize >= segments) {
+                return Err(PslgLayoutError::PolygonSegment { polygon, segment, segments });
+            }
+        }
         let markers = |array, expected, found| match found {
             0 => Ok(()),
             _ => length(array, expected, found),
         };
         markers("point_markers", points, self.point_markers.len())?;
-        let segments = self.segments.len();
         markers("segment_markers", segments, self.segment_markers.len())?;
         // A product beyond usize fits no array, so saturating keeps the verdict.
         let attributes = points.saturating_mul(self.attributes_per_point);
@@ -165,6 +204,14 @@ mod tests {
         let mut pslg = triangle();
         pslg.segments[1] = [2, 3];
         assert_eq!(pslg.check_layout(), Err(PslgLayoutError::SegmentEnd { segment: 1, point: 3, points: 3 }));
+    }
+
+    #[test]
+    fn a_polygon_of_a_missing_segment_is_named() {
+        let mut pslg = triangle();
+        pslg.polygons = vec![Polygon { rings: vec![vec![0, 1, 2], vec![3]], ..Polygon::default() }];
+        let expected = PslgLayoutError::PolygonSegment { polygon: 0, segment: 3, segments: 3 };
+        assert_eq!(pslg.check_layout(), Err(expected));
     }
 
     #[test]

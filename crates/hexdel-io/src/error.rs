@@ -449,6 +449,12 @@ pub enum WriteError {
         /// The number.
         found: f64,
     },
+    /// The format knows areas by holes and regions only.
+    #[error("{file}: the format holds no polygons, only holes and regions")]
+    Polygons {
+        /// The file.
+        file: String,
+    },
     /// The format does not hold segments, holes or regions.
     #[error("{file}: the format holds points only, not {item}")]
     PointsOnly {

@@ -29,7 +29,7 @@ pub(crate) fn read_geojson(source: &Source<'_>) -> Result<Pslg, ReadError> {
     for shape in features {
         builder.feature(shape, 0)?;
     }
-    builder.finish()
+    Ok(builder.finish())
 }
 
 /// An object of `GeoJSON`.
@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn geometries_of_every_kind() {
-        for (geometry, points, segments, regions) in [
+        for (geometry, points, segments, polygons) in [
             (r#"{"type":"Point","coordinates":[1,2,300]}"#, 1, 0, 0),
             (r#"{"coordinates":[],"type":"Point"}"#, 0, 0, 0),
             (r#"{"type":"MultiPoint","coordinates":[[1,2],[3,4.5],[1,2]]}"#, 2, 0, 0),
@@ -237,7 +237,7 @@ mod tests {
                 let pslg = read(text).unwrap();
                 let found = (pslg.points.len(), pslg.segments.len());
                 assert_eq!(found, (points, segments), "{text}");
-                assert!(pslg.regions.len() >= regions, "{text}");
+                assert!(pslg.polygons.len() >= polygons, "{text}");
                 assert!(pslg.point_markers.iter().all(|m| *m == 1), "{text}");
             }
         }

@@ -8,6 +8,7 @@
 //!  "segments": [[0, 1], ..],
 //!  "holes": [[0.5, 0.5], ..],
 //!  "regions": [{"point": [0.1, 0.1], "attribute": 3.0, "max_area": 0.01}, ..],
+//!  "polygons": [{"rings": [[0, 1, 2], ..], "attribute": 3.0, "max_area": 0.01}, ..],
 //!  "point_markers": [1, ..],              or "vertex_markers"
 //!  "segment_markers": [1, ..],
 //!  "point_attributes": [7.5, ..],         attributes_per_point for each point
@@ -20,7 +21,7 @@
 
 use std::io::{self, Write};
 
-use hexdel_geom::{DVec2, Pslg, Region};
+use hexdel_geom::{DVec2, Polygon, Pslg, Region};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
@@ -61,6 +62,8 @@ pub(crate) struct GraphDocument {
     holes: Vec<DVec2>,
     #[serde(default)]
     regions: Vec<Region>,
+    #[serde(default)]
+    polygons: Vec<Polygon>,
     #[serde(default, alias = "vertex_markers")]
     point_markers: Vec<i32>,
     #[serde(default)]
@@ -79,6 +82,7 @@ impl GraphDocument {
             segments: self.segments,
             holes: self.holes,
             regions: self.regions,
+            polygons: self.polygons,
             point_markers: self.point_markers,
             segment_markers: self.segment_markers,
             point_attributes: self.point_attributes,
@@ -154,6 +158,8 @@ pub(crate) fn read_cgshop(source: &Source<'_>) -> Result<Pslg, ReadError> {
 pub(crate) fn check_writable(pslg: &Pslg, file: &str) -> Result<(), WriteError> {
     let attributes = pslg.point_attributes.iter().copied();
     let regions = pslg.regions.iter().flat_map(|r| [r.attribute, r.max_area.unwrap_or(0.0)]);
+    let polygons = pslg.polygons.iter().flat_map(|p| [p.attribute, p.max_area.unwrap_or(0.0)]);
+    check_numbers(polygons, "attribute or largest area of polygons", file)?;
     check_numbers(attributes, "attribute", file)?;
     check_numbers(regions, "attribute or largest area of regions", file)
 }
@@ -170,6 +176,16 @@ pub(crate) fn check_numbers(
             Err(WriteError::Unrepresentable { file: file.to_owned(), format: "JSON", item, index, found })
         }
     }
+}
+
+/// The end of a region's or a polygon's object.
+fn label(text: &mut TextWriter<'_>, attribute: f64, max_area: Option<f64>) {
+    text.text(", \"attribute\": ").number(attribute).text(", \"max_area\": ");
+    match max_area {
+        Some(area) => text.number(area),
+        None => text.text("null"),
+    };
+    text.text("}");
 }
 
 /// Writes a graph, an item per line.
@@ -190,13 +206,17 @@ pub(crate) fn write_graph(out: &mut dyn Write, pslg: &Pslg) -> io::Result<()> {
     text.text("],\n\"regions\": [");
     text.rows(&pslg.regions, |text, region| {
         text.text("{\"point\": ").position(region.point);
-        text.text(", \"attribute\": ").number(region.attribute).text(", \"max_area\": ");
-        match region.max_area {
-            Some(area) => text.number(area),
-            None => text.text("null"),
-        };
-        text.text("}");
+        label(text, region.attribute, region.max_area);
     })?;
+    if !pslg.polygons.is_empty() {
+        text.text("],\n\"polygons\": [");
+        text.rows(&pslg.polygons, |text, polygon| {
+            let ring = |ring: &Vec<u32>| ring.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+            let rings: Vec<String> = polygon.rings.iter().map(ring).collect();
+            text.text("{\"rings\": [[").text(&rings.join("], [")).text("]]");
+            label(text, polygon.attribute, polygon.max_area);
+        })?;
+    }
     for (name, markers) in
         [("point_markers", &pslg.point_markers), ("segment_markers", &pslg.segment_markers)]
     {
@@ -270,6 +290,7 @@ mod tests {
                 Region { point: DVec2::ONE, attribute: 2.5, max_area: None },
                 Region { point: DVec2::ONE, attribute: -1.0, max_area: Some(1e-300) },
             ],
+            polygons: vec![Polygon { rings: vec![vec![0], vec![]], attribute: 1.5, max_area: Some(0.1) }],
             point_markers: vec![i32::MIN, i32::MAX],
             segment_markers: vec![-3],
             point_attributes: vec![1.0, 0.1, f64::MAX, -0.0],

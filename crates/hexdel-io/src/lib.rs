@@ -57,7 +57,6 @@ mod glyphs;
 mod graph_json;
 mod graph_ron;
 mod histogram;
-mod interior;
 mod json;
 mod legend;
 mod lines;

@@ -6,24 +6,18 @@
 //!   so that a border drawn by two polygons is there once. Rings are closed.
 //! - Markers of points and segments are the number of the first feature that has
 //!   them, counted from 1.
-//! - Each polygon becomes a region, a point inside of it with the feature's number as
-//!   attribute, and each of its holes a hole, unless other polygons cover it.
+//! - Each polygon becomes a [`Polygon`] with the feature's number as attribute.
 //!
-//! A polygon that lines or other polygons divide is named by its region point in one
-//! of the parts only. Whether rings cross is left to whoever meshes the graph.
+//! Whether rings cross or polygons overlap is left to whoever meshes the graph.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use hexdel_geom::{DVec2, Pslg, Region};
+use hexdel_geom::{DVec2, Polygon, Pslg};
 
 use crate::error::ReadError;
-use crate::interior::{covers, interior_points};
 
 /// The most points, so that 32-bit indices reach all of them.
 const MAX_POINTS: usize = u32::MAX as usize;
-
-/// The most steps that finding the holes covered by polygons may take: seconds.
-const MAX_COVER_STEPS: u64 = 1 << 31;
 
 /// A geometry.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,18 +35,10 @@ pub(crate) struct GraphBuilder {
     pslg: Pslg,
     /// The index of each point, by its coordinates' bits.
     point_of: HashMap<[u64; 2], u32>,
-    /// The segments there are, the smaller end first.
-    segments: HashSet<[u32; 2]>,
-    polygons: Vec<Polygon>,
+    /// The index of each segment, by its ends, the smaller first.
+    segments: HashMap<[u32; 2], u32>,
     /// Features so far.
     features: i32,
-}
-
-/// A polygon with its bounding box.
-struct Polygon {
-    rings: Vec<Vec<DVec2>>,
-    low: DVec2,
-    high: DVec2,
 }
 
 impl GraphBuilder {
@@ -61,8 +47,7 @@ impl GraphBuilder {
             file: file.to_owned(),
             pslg: Pslg::default(),
             point_of: HashMap::new(),
-            segments: HashSet::new(),
-            polygons: Vec::new(),
+            segments: HashMap::new(),
             features: 0,
         }
     }
@@ -104,83 +89,52 @@ impl GraphBuilder {
         Ok(index)
     }
 
-    fn path(&mut self, points: &[DVec2], line: u64) -> Result<(), ReadError> {
+    /// Adds the segments of a path, and says which they are.
+    fn path(&mut self, points: &[DVec2], line: u64) -> Result<Vec<u32>, ReadError> {
+        let mut segments = Vec::with_capacity(points.len());
         let mut before = None;
         for &p in points {
             let here = self.point(p, line)?;
-            if let Some(before) = before {
-                self.segment(before, here);
-            }
+            segments.extend(before.and_then(|before| self.segment(before, here)));
             before = Some(here);
         }
-        Ok(())
+        Ok(segments)
     }
 
-    fn segment(&mut self, a: u32, b: u32) {
-        if a != b && self.segments.insert([a.min(b), a.max(b)]) {
+    /// The segment between two points, unless they are the same.
+    fn segment(&mut self, a: u32, b: u32) -> Option<u32> {
+        if a == b {
+            return None;
+        }
+        let next = self.pslg.segments.len() as u32;
+        let segment = *self.segments.entry([a.min(b), a.max(b)]).or_insert(next);
+        if segment == next {
             self.pslg.segments.push([a, b]);
             self.pslg.segment_markers.push(self.features);
         }
+        Some(segment)
     }
 
     fn polygon(&mut self, mut rings: Vec<Vec<DVec2>>, line: u64) -> Result<(), ReadError> {
+        let mut polygon = Polygon { attribute: f64::from(self.features), ..Polygon::default() };
         for ring in &mut rings {
             if ring.first() != ring.last() {
                 ring.push(ring[0]);
             }
-            self.path(ring, line)?;
+            polygon.rings.push(self.path(ring, line)?);
         }
-        if rings.first().is_none_or(|outer| outer.len() <= 3) {
-            return Ok(());
-        }
-        let Some(&point) = interior_points(&rings).first() else {
-            return Ok(());
-        };
-        let region = Region { point, attribute: f64::from(self.features), max_area: None };
-        self.pslg.regions.push(region);
-        let all = || rings.iter().flatten().copied();
-        let (low, high) = (all().reduce(DVec2::min), all().reduce(DVec2::max));
-        if let (Some(low), Some(high)) = (low, high) {
-            self.polygons.push(Polygon { rings, low, high });
+        if polygon.rings.first().is_some_and(|outer| outer.len() > 2) {
+            self.pslg.polygons.push(polygon);
         }
         Ok(())
     }
 
     /// The graph.
-    pub(crate) fn finish(mut self) -> Result<Pslg, ReadError> {
-        let mut steps = 0;
-        // By their lower left, so that a search need not look at those beyond.
-        self.polygons.sort_by(|a, b| a.low.x.total_cmp(&b.low.x));
-        for hole in self.polygons.iter().flat_map(|p| p.rings.iter().skip(1)) {
-            let candidates = interior_points(std::slice::from_ref(hole));
-            for p in candidates {
-                let covered = self.is_covered(p, &mut steps);
-                if steps > MAX_COVER_STEPS {
-                    return Err(self.too_many("steps to find covered holes", 0, MAX_COVER_STEPS));
-                }
-                if !covered {
-                    self.pslg.holes.push(p);
-                    break;
-                }
-            }
-        }
+    pub(crate) fn finish(mut self) -> Pslg {
         if self.pslg.segments.is_empty() {
             self.pslg.segment_markers.clear();
         }
-        Ok(self.pslg)
-    }
-
-    /// Whether a polygon covers the point.
-    fn is_covered(&self, p: DVec2, steps: &mut u64) -> bool {
-        let reach = self.polygons.partition_point(|polygon| polygon.low.x <= p.x);
-        *steps += reach as u64;
-        self.polygons[..reach].iter().any(|polygon| {
-            let inside = p.cmpge(polygon.low).all() && p.cmple(polygon.high).all();
-            inside && {
-                *steps += polygon.rings.iter().map(Vec::len).sum::<usize>() as u64;
-                covers(&polygon.rings, p)
-            }
-        })
+        self.pslg
     }
 
     fn too_many(&self, section: &'static str, line: u64, limit: u64) -> ReadError {
@@ -205,7 +159,7 @@ mod tests {
         for shape in features {
             builder.feature(shape, 1).unwrap();
         }
-        let pslg = builder.finish().unwrap();
+        let pslg = builder.finish();
         assert_eq!(pslg.check_layout(), Ok(()));
         pslg
     }
@@ -217,30 +171,26 @@ mod tests {
         assert_eq!(pslg.segments.len(), 7);
         assert_eq!(pslg.segment_markers, [1, 1, 1, 1, 2, 2, 2]);
         assert_eq!(pslg.point_markers, [1, 1, 1, 1, 2, 2]);
-        let regions: Vec<_> = pslg.regions.iter().map(|r| (r.point.x, r.point.y, r.attribute)).collect();
-        assert_eq!(regions, [(1.0, 1.0, 1.0), (3.0, 1.0, 2.0)]);
+        let attributes = pslg.polygons.iter().map(|p| (p.attribute, &p.rings[..]));
+        let expected = [(1.0, &[vec![0, 1, 2, 3]][..]), (2.0, &[vec![4, 5, 6, 1]])];
+        assert!(attributes.eq(expected), "{:?}", pslg.polygons);
     }
 
     #[test]
-    fn holes_are_empty_unless_another_polygon_fills_them() {
+    fn holes_are_rings_of_their_polygon() {
         let frame = Shape::Polygon(vec![square(0, 0, 9), square(3, 3, 3)]);
-        let pslg = graph(vec![frame.clone()]);
-        assert_eq!(pslg.holes, [DVec2::splat(4.5)]);
-        let pslg = graph(vec![frame.clone(), Shape::Polygon(vec![square(3, 3, 3)])]);
-        assert!(pslg.holes.is_empty());
-        assert_eq!(pslg.regions.len(), 2);
-        // A neighbour in a corner of the hole leaves the rest of it empty.
-        let corner = ring(&[(3, 3), (6, 3), (6, 5), (3, 5)]);
-        let pslg = graph(vec![frame, Shape::Polygon(vec![corner])]);
-        assert!(pslg.holes.iter().all(|p| p.y > 5.0), "{:?}", pslg.holes);
+        let pslg = graph(vec![frame, Shape::Polygon(vec![square(3, 3, 3)])]);
+        assert!(pslg.holes.is_empty() && pslg.regions.is_empty());
+        let rings: Vec<_> = pslg.polygons.iter().flat_map(|p| p.rings.clone()).collect();
+        assert_eq!(rings, [[0, 1, 2, 3], [4, 5, 6, 7], [4, 5, 6, 7]]);
     }
 
     #[test]
-    fn shapes_without_area_are_no_regions() {
-        let flat = Shape::Polygon(vec![ring(&[(0, 0), (1, 0), (2, 0)])]);
+    fn shapes_without_area_are_no_polygons() {
+        let flat = Shape::Polygon(vec![ring(&[(0, 0), (1, 0), (0, 0)])]);
         let pslg = graph(vec![flat, Shape::Polygon(vec![vec![]]), Shape::Line(ring(&[(2, 0), (2, 0)]))]);
-        assert!(pslg.regions.is_empty());
-        assert_eq!(pslg.segments, [[0, 1], [1, 2], [2, 0]]);
+        assert!(pslg.polygons.is_empty());
+        assert_eq!(pslg.segments, [[0, 1]]);
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub(crate) fn read_wkt(reader: impl BufRead, file: &str) -> Result<Pslg, ReadErr
             shape => builder.feature(shape, line)?,
         }
     }
-    builder.finish()
+    Ok(builder.finish())
 }
 
 struct Parser<R> {
@@ -298,7 +298,7 @@ mod tests {
 
     #[test]
     fn geometries_of_every_kind() {
-        for (text, points, segments, regions) in [
+        for (text, points, segments, polygons) in [
             ("", 0, 0, 0),
             ("POINT EMPTY", 0, 0, 0),
             ("point(1 2)", 1, 0, 0),
@@ -312,8 +312,8 @@ mod tests {
             ("GEOMETRYCOLLECTION (POINT (1 2), GEOMETRYCOLLECTION (POINT M (2 3 4), POINT EMPTY))", 2, 0, 0),
         ] {
             let pslg = read(text).unwrap();
-            let found = (pslg.points.len(), pslg.segments.len(), pslg.regions.len());
-            assert_eq!(found, (points, segments, regions), "{text}");
+            let found = (pslg.points.len(), pslg.segments.len(), pslg.polygons.len());
+            assert_eq!(found, (points, segments, polygons), "{text}");
         }
         let pslg = read("GEOMETRYCOLLECTION (POINT (1 2), MULTIPOINT (3 4, 5 6)) POINT (7 8)").unwrap();
         assert_eq!(pslg.point_markers, [1, 2, 2, 3]);

@@ -187,6 +187,9 @@ fn check_points(format: PointFormat, pslg: &Pslg, name: &str) -> Result<(), Writ
     }
     check_finite("region", pslg.regions.iter().map(|r| r.point), name)?;
     match format {
+        PointFormat::Poly if !pslg.polygons.is_empty() => {
+            return Err(WriteError::Polygons { file: name.to_owned() });
+        }
         PointFormat::Poly | PointFormat::Ron => return Ok(()),
         PointFormat::Json => return graph_json::check_writable(pslg, name),
         _ => {}
@@ -195,6 +198,7 @@ fn check_points(format: PointFormat, pslg: &Pslg, name: &str) -> Result<(), Writ
         ("segments", pslg.segments.is_empty()),
         ("holes", pslg.holes.is_empty()),
         ("regions", pslg.regions.is_empty()),
+        ("polygons", pslg.polygons.is_empty()),
     ];
     match lost.into_iter().find(|(_, empty)| !empty) {
         None => Ok(()),

@@ -65,6 +65,7 @@ fn pslg() -> impl Strategy<Value = Pslg> {
             attributes_per_point: attributes,
             holes: p.5,
             regions: p.6.into_iter().map(region_of).collect(),
+            polygons: Vec::new(),
         })
     })
 }

@@ -1,6 +1,8 @@
 //! What lies outside and in holes goes; regions are told apart.
 
+use crate::locator::Locator;
 use crate::net::{Kind, NONE, Net};
+use crate::options::Extent;
 use crate::validate::Validated;
 use hexdel_geom::DVec2;
 
@@ -54,6 +56,51 @@ impl Validated {
         let sites = self.points.site_of_input().iter();
         let points = sites.map(|&site| vertices[self.vertex_of_site[site as usize] as usize]).collect();
         Carved { points, pieces }
+    }
+}
+
+/// Which parts of the plane a mesh will not cover: what is there is nothing to it.
+pub(crate) struct Carving<'a> {
+    input: &'a Validated,
+    locator: Locator<'a>,
+    /// By triangle of the plane.
+    carved: Vec<bool>,
+}
+
+/// How far beside the middle between two features the plane is looked at, too, over their
+/// distance: on a segment between them rounding decides which side is seen.
+const BESIDE: f64 = 0.01;
+
+impl<'a> Carving<'a> {
+    /// `None` if all is covered.
+    pub(crate) fn of(input: &'a Validated, extent: Extent) -> Option<Self> {
+        let carved = reached(&input.plane, &input.pslg.holes, extent == Extent::Inside);
+        let any = input.plane.alive().any(|t| carved[t as usize]);
+        any.then(|| Self { input, locator: Locator::of(input), carved })
+    }
+
+    /// Whether the plane beside a site is carved in a direction.
+    pub(crate) fn is_carved_at(&self, site: u32, angle: f64) -> bool {
+        // Others are not of the plane.
+        let Some(&v) = self.input.vertex_of_site.get(site as usize) else { return false };
+        let (sin, cos) = libm::sincos(angle);
+        let direction = DVec2::new(cos, sin);
+        let plane = &self.input.plane;
+        let mut star = Vec::with_capacity(8);
+        plane.star(v, &mut star);
+        let holds = |&&t: &&u32| {
+            let Some(i) = plane.tri(t).corner(v) else { return false };
+            let [b, c] = plane.tri(t).edge(i).map(|w| plane.at(w) - plane.at(v));
+            b.perp_dot(direction) >= 0.0 && direction.perp_dot(c) >= 0.0
+        };
+        star.iter().find(holds).is_some_and(|&t| self.carved[t as usize])
+    }
+
+    /// Whether only what is carved lies between two places.
+    pub(crate) fn parts(&self, p: DVec2, q: DVec2) -> bool {
+        let (middle, aside) = (p.midpoint(q), BESIDE * (q - p).perp());
+        let is_carved = |p| self.locator.triangle_at(p).is_some_and(|t| self.carved[t as usize]);
+        [middle, middle + aside, middle - aside].into_iter().all(is_carved)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Why a graph is no input, and why one could not be meshed.
 
+use crate::geometry::nearest_places;
 use crate::validate::Validated;
-use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, PslgLayoutError};
+use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, Pslg, PslgLayoutError, orient2d};
 use hexdel_optimize::OptimizeError;
 use thiserror::Error;
 
@@ -55,6 +56,16 @@ pub enum ValidateError {
         /// The point.
         point: DVec2,
     },
+    /// A ring of a polygon is not closed.
+    #[error("ring {ring} of polygon {polygon} ends at ({}, {}): rings must be closed", at.x, at.y)]
+    OpenRing {
+        /// Index of the polygon.
+        polygon: usize,
+        /// Index of the ring.
+        ring: usize,
+        /// Where it ends.
+        at: DVec2,
+    },
     /// The two ends of a segment are the same point.
     #[error("segment {segment} has no length: both ends are at ({}, {})", at.x, at.y)]
     ZeroLength {
@@ -97,23 +108,28 @@ pub enum ValidateError {
 pub enum PslgError {
     /// Two parts of the input are closer than their coordinates can resolve:
     /// vertices between them would be rounded by more than angles bear.
-    #[error("{} and {} are too close at ({}, {}): hexagons of {spacing:e} do not tell them apart",
-        items[0], items[1], at.x, at.y)]
+    #[error("{} and {} are too close at ({}, {}): {}hexagons of {spacing:e} do not tell them apart",
+        items[0], items[1], at.x, at.y, apart(*distance))]
     TooClose {
         /// The two parts.
         items: [Feature; 2],
         /// Where.
         at: DVec2,
+        /// How far apart they are; `None` if that is not known, or they meet elsewhere.
+        /// Repair within this distance makes them one.
+        distance: Option<f64>,
         /// Spacing of the finest hexagons that the coordinates resolve there.
         spacing: f64,
     },
-    /// The budget of triangles is used up.
-    #[error("more than {limit} triangles are needed; the finest around ({}, {})", at.x, at.y)]
+    /// The budget of triangles is used up, or would be.
+    #[error("more than {limit} triangles are needed; the finest around ({}, {}){}", at.x, at.y, narrows(near.as_ref()))]
     TooMany {
         /// The limit.
         limit: usize,
         /// Where the size is smallest.
         at: DVec2,
+        /// What is so close there that it asks for them, if that is known.
+        near: Option<Near>,
     },
     /// The inside was asked for, and nothing is enclosed by segments.
     #[error("no part of the plane is enclosed by segments and no hole{}", listed(loose, *count))]
@@ -123,6 +139,9 @@ pub enum PslgError {
         /// How many there are.
         count: usize,
     },
+    /// The graph has polygons, of which meshes know nothing.
+    #[error("polygons must be made holes and regions first, by `Validated::seeded`")]
+    NotSeeded,
     /// Away from segments the method does not keep the bounds asked for.
     #[error(
         "angles between {} and {} degrees are more than the method keeps away from segments ({} to {})",
@@ -203,6 +222,72 @@ fn listed(loose: &[LooseEnd], count: usize) -> String {
         more => format!(" and {more} more"),
     };
     format!("; segments end loose at {}{more}", ends.join(", "))
+}
+
+/// Two parts of the input that are near each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// The two parts.
+    pub items: [Feature; 2],
+    /// How far apart they are; repair within this distance makes them one.
+    pub distance: f64,
+}
+
+impl PslgError {
+    /// Too many triangles, for whatever reason.
+    pub(crate) fn too_many(limit: usize, at: DVec2) -> Self {
+        Self::TooMany { limit, at, near: None }
+    }
+
+    /// A tolerance for `repair` that makes one of the two parts of the input that keep it from
+    /// being meshed, if that is why.
+    pub fn repair_within(&self) -> Option<f64> {
+        match self {
+            // What coordinates do not resolve is as good as one.
+            Self::TooClose { distance, spacing, .. } => Some(distance.unwrap_or(0.0).max(*spacing)),
+            Self::TooMany { near, .. } => near.map(|near| near.distance),
+            _ => None,
+        }
+    }
+
+    /// With the distance of what is too close in it.
+    pub(crate) fn measured(self, pslg: &Pslg) -> Self {
+        match self {
+            Self::TooClose { items, at, distance: None, spacing } => {
+                Self::TooClose { items, at, distance: between(items, pslg), spacing }
+            }
+            other => other,
+        }
+    }
+}
+
+/// How far two parts of a graph are from each other, if they do not meet.
+pub(crate) fn between(items: [Feature; 2], pslg: &Pslg) -> Option<f64> {
+    let ends = |item| match item {
+        Feature::Point(i) => Some([pslg.points[i]; 2]),
+        Feature::Segment(i) => Some(pslg.segments[i].map(|p| pslg.points[p as usize])),
+        Feature::Hull | Feature::Crossing => None,
+    };
+    let [first, second] = [ends(items[0])?, ends(items[1])?];
+    let [a, b] = nearest_places(first, second);
+    let off = |p: DVec2, [c, d]: [DVec2; 2]| orient2d(c, d, p).abs() / c.distance(d);
+    let distance = match a.distance(b) {
+        // Of what is nearer than the last place predicates tell the distance.
+        0.0 if first.contains(&a) && second[0] != second[1] => off(a, second),
+        0.0 if second.contains(&b) && first[0] != first[1] => off(b, first),
+        distance => distance,
+    };
+    Some(distance).filter(|&distance| distance > 0.0)
+}
+
+fn apart(distance: Option<f64>) -> String {
+    distance.map_or_else(String::new, |distance| format!("they are {distance:e} apart, and "))
+}
+
+fn narrows(near: Option<&Near>) -> String {
+    near.map_or_else(String::new, |Near { items: [a, b], distance }| {
+        format!(", where {a} and {b} are {distance:e} apart")
+    })
 }
 
 /// A point or segment of the input, by index.

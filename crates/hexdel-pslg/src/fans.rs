@@ -25,6 +25,7 @@
 //! Vertices of the ring become sites, its edges and spokes pieces that are not
 //! divided. No region ends at them.
 
+use crate::carve::Carving;
 use crate::geometry::{distance_sq, nearest_on};
 use crate::net::{Kind, NONE, Net};
 use crate::sectors::direction;
@@ -111,16 +112,17 @@ pub(crate) struct Scene {
     pub(crate) fans: Vec<Fan>,
 }
 
-/// The pieces of an input with a fan at each narrow corner. `most` is the
-/// largest radius at a place.
+/// The pieces of an input with a fan at each narrow corner that is not carved away.
+/// `most` is the largest radius at a place.
 pub(crate) fn with_fans(
     input: &Validated,
     pieces: Vec<Piece>,
     near: AngleBounds,
+    carving: Option<&Carving<'_>>,
     most: &dyn Fn(DVec2) -> f64,
 ) -> Scene {
     let mut scene = Scene::plain(input, pieces);
-    let spokes = Spokes::of(&scene);
+    let spokes = Spokes::of(&scene, carving);
     let corners: Vec<&[Spoke]> = spokes.corners(near).collect();
     let found = spokes.fans(input, &corners, most);
     if !found.is_empty() {
@@ -141,6 +143,8 @@ struct Spoke {
     length: f64,
     /// Whether nothing else begins where it ends.
     free: bool,
+    /// Whether the sector from here to the next spoke is carved away.
+    carved: bool,
 }
 
 /// All pieces from both ends, by site and direction.
@@ -172,7 +176,7 @@ struct RingSpoke {
 }
 
 impl<'a> Spokes<'a> {
-    fn of(scene: &'a Scene) -> Self {
+    fn of(scene: &'a Scene, carving: Option<&Carving<'_>>) -> Self {
         let mut degree = vec![0_u32; scene.sites.len()];
         for end in scene.pieces.iter().flat_map(|p| p.ends) {
             degree[end as usize] += 1;
@@ -183,10 +187,19 @@ impl<'a> Spokes<'a> {
             for [site, other] in [[a, b], [b, a]] {
                 let u = scene.sites[other as usize] - scene.sites[site as usize];
                 let free = degree[other as usize] == 1;
-                all.push(Spoke { site, angle: direction(u), piece: i, length: u.length(), free });
+                let angle = direction(u);
+                all.push(Spoke { site, angle, piece: i, length: u.length(), free, carved: false });
             }
         }
         all.sort_by(|a, b| a.site.cmp(&b.site).then(a.angle.total_cmp(&b.angle)));
+        if let Some(carving) = carving {
+            for group in all.chunk_by_mut(|a, b| a.site == b.site) {
+                for (i, gap) in gaps(group).into_iter().enumerate() {
+                    let spoke = &mut group[i];
+                    spoke.carved = carving.is_carved_at(spoke.site, spoke.angle + 0.5 * gap);
+                }
+            }
+        }
         Self { scene, all }
     }
 
@@ -201,7 +214,7 @@ impl<'a> Spokes<'a> {
     fn corners(&self, near: AngleBounds) -> impl Iterator<Item = &[Spoke]> {
         let narrow = narrow_deg(near);
         self.all.chunk_by(|a, b| a.site == b.site).filter(move |group| {
-            let gaps = gaps(group);
+            let gaps = kept_gaps(group);
             let least = gaps.iter().copied().fold(TAU, f64::min).to_degrees();
             let tight = gaps.iter().filter(|gap| gap.to_degrees() < near.min_deg() + ROOM_DEG).count();
             // Isosceles triangles have two angles near the largest.
@@ -306,13 +319,13 @@ fn divisions(at: &[Spoke]) -> Vec<Vec<f64>> {
 
 /// The angle that a fan's triangle has in each direction.
 fn sizes(at: &[Spoke]) -> impl Fn(f64) -> f64 {
-    let gaps = gaps(at);
+    let (gaps, kept) = (gaps(at), kept_gaps(at));
     let starts: Vec<f64> = at.iter().map(|s| s.angle).collect();
     move |angle: f64| {
-        let sizes = starts.iter().zip(&gaps).map(|(start, gap)| {
+        let sizes = starts.iter().zip(&gaps).zip(&kept).map(|((start, gap), kept)| {
             let into = (angle - start).rem_euclid(TAU);
             let away = if into <= *gap { 0.0 } else { (into - gap).min(TAU - into) };
-            gap + GROWTH * away
+            kept + GROWTH * away
         });
         sizes.fold(WIDEST, f64::min)
     }
@@ -334,6 +347,11 @@ fn gaps(at: &[Spoke]) -> Vec<f64> {
         gap => gap,
     };
     (0..at.len()).map(gap).collect()
+}
+
+/// The same, as wide as can be where they are carved away: nothing is asked for there.
+fn kept_gaps(at: &[Spoke]) -> Vec<f64> {
+    gaps(at).into_iter().zip(at).map(|(gap, spoke)| if spoke.carved { TAU } else { gap }).collect()
 }
 
 /// The narrower of a fan's triangles beside each spoke, radians.

@@ -71,7 +71,7 @@ fn peel(plane: &Net, input: &Validated, edge: [u32; 2], pieces: &mut Vec<Piece>)
 }
 
 /// The sites on the hull, counter-clockwise, those on its edges included.
-fn convex_hull(sites: &[DVec2]) -> Vec<u32> {
+pub(crate) fn convex_hull(sites: &[DVec2]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..sites.len() as u32).collect();
     let at = |i: u32| sites[i as usize];
     order.sort_by(|&i, &j| at(i).x.total_cmp(&at(j).x).then(at(i).y.total_cmp(&at(j).y)));

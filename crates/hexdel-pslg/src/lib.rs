@@ -21,13 +21,16 @@
 //! | `repeated` | segments that are superfluous |
 //! | `interpolate` | values between points |
 //! | `sizing` | how fine the grid must be |
+//! | `estimate` | what would be too large is refused before the work |
 //! | `limits` | limits on the area of triangles and the length of edges |
+//! | `faces` | polygons become holes and regions |
 //! | `hull` | the convex hull as a boundary |
 //! | `net` | a triangulation that can be changed, and changes taken back |
 //! | `field` | the size of a mesh at every place |
 //! | `fans` | triangles around the narrowest corners |
 //! | `embed` | points and segments go into the mesh |
 //! | `carve` | holes and the outside go |
+//! | `seeds` | holes and regions that change nothing |
 //! | `sectors` | corners that are narrower than the bound |
 //! | `fit` | the optimiser |
 //! | `compact` | fewer triangles |
@@ -42,6 +45,8 @@ mod carve;
 mod compact;
 mod embed;
 mod error;
+mod estimate;
+mod faces;
 mod fans;
 mod field;
 mod fit;
@@ -60,16 +65,19 @@ mod repair;
 mod repeated;
 mod result;
 mod sectors;
+mod seeds;
 mod sizing;
 mod validate;
 pub use carve::Carved;
-pub use error::{Feature, LooseEnd, PslgError, ValidateError};
+pub use error::{Feature, LooseEnd, Near, PslgError, ValidateError};
+pub use faces::{Cover, Overlap, StrayRing};
 pub use hexdel_optimize::Effort;
 pub use mesher::{mesh, mesh_sized};
 pub use options::{Extent, Options, SegmentMethod};
 pub use output::vertex_markers;
-pub use repair::{Repair, RepairReport, repair};
+pub use repair::{NEARLY_ON_DEG, Repair, RepairReport, repair, repair_nearly_on};
 pub use repeated::drop_repeated;
 pub use result::{Exception, PslgMesh, Reason, SegmentEdge, holds};
 pub use sectors::{NarrowCorner, hopeless_pairs, narrow_corners};
+pub use seeds::{Areas, Seed, Unused, UnusedSeed};
 pub use validate::{Divided, Validated, validate, violations};

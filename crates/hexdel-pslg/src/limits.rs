@@ -204,7 +204,7 @@ impl<'a> Limits<'a> {
             triangles += cell * cell / (EQUILATERAL * largest * largest);
         }
         if triangles > most as f64 {
-            return Err(PslgError::TooMany { limit: most, at: finest.1 });
+            return Err(PslgError::too_many(most, finest.1));
         }
         Ok(())
     }

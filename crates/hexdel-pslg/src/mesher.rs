@@ -1,9 +1,10 @@
 //! From a valid graph to its mesh: the order of things.
 
-use crate::carve::carve;
+use crate::carve::{Carving, carve};
 use crate::compact::{Kept, compact};
 use crate::embed::embed;
 use crate::error::PslgError;
+use crate::estimate::refuse_too_many;
 use crate::fans::{Fan, Scene, with_fans};
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::optimise;
@@ -70,7 +71,7 @@ const REFINED_RADIUS: f64 = 1.5;
 ///
 /// Never; a broken invariant would be a defect of the library.
 pub fn mesh(input: &Validated, options: &Options, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
-    run(input, options, None, monitor)
+    run(input, options, None, monitor).map_err(|error| error.measured(&input.pslg))
 }
 
 /// Like [`mesh`], with edges no longer than wanted at their ends and their
@@ -91,7 +92,7 @@ pub fn mesh_sized(
     size: &dyn Sizing,
     monitor: &dyn Monitor,
 ) -> Result<PslgMesh, PslgError> {
-    run(input, options, Some(size), monitor)
+    run(input, options, Some(size), monitor).map_err(|error| error.measured(&input.pslg))
 }
 
 fn run(
@@ -100,6 +101,9 @@ fn run(
     size: Option<&dyn Sizing>,
     monitor: &dyn Monitor,
 ) -> Result<PslgMesh, PslgError> {
+    if !input.pslg.polygons.is_empty() {
+        return Err(PslgError::NotSeeded);
+    }
     if let Some(area) = options.max_area.filter(|a| !(a.is_finite() && *a > 0.0)) {
         return Err(PslgError::InvalidArea { area });
     }
@@ -113,6 +117,7 @@ fn run(
     let deadline = Deadline::after(options.budget);
     let mesher = Mesher::new(input, options, size, &deadline);
     mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
+    refuse_too_many(input, mesher.carving.as_ref(), &mesher.lattice, options.max_triangles)?;
     let mut wishes = Wishes { demands: Vec::new(), lattice: mesher.lattice };
     let (mut retries, mut vain) = (0, 0);
     let mut best = mesher.made(&wishes, monitor)?;
@@ -199,6 +204,7 @@ struct Mesher<'a> {
     sectors: Sectors,
     wedges: Wedges,
     limits: Option<Limits<'a>>,
+    carving: Option<Carving<'a>>,
     deadline: &'a Deadline,
 }
 
@@ -214,11 +220,14 @@ impl<'a> Mesher<'a> {
         let pieces = if options.extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
         let limits = Limits::of(input, options, size, circle);
         let most = |p: DVec2| limits.as_ref().map_or(f64::INFINITY, |limits| limits.radius_at(p));
-        let scene = with_fans(input, pieces, options.near, &most);
-        let sectors = Sectors::of(&scene.sites, &scene.pieces, &scene.fans, options.near.min_deg());
+        let carving = Carving::of(input, options.extent);
+        let scene = with_fans(input, pieces, options.near, carving.as_ref(), &most);
+        let least = options.near.min_deg();
+        let sectors = Sectors::of(&scene.sites, &scene.pieces, &scene.fans, least, carving.as_ref());
         let wedges = sectors.wedges(&scene.pieces);
         let reach = scene.sites.iter().map(|p| p.distance(circle.center)).fold(circle.radius, f64::max);
-        Self { input, options, lattice: lattice_for(circle), reach, scene, sectors, wedges, limits, deadline }
+        let lattice = lattice_for(circle);
+        Self { input, options, lattice, reach, scene, sectors, wedges, limits, carving, deadline }
     }
 
     fn judge(&self) -> Judge<'_> {
@@ -336,14 +345,14 @@ impl<'a> Mesher<'a> {
             pieces: &self.scene.pieces,
             input_of_site: &self.scene.input_of_site,
             demands: &wishes.demands,
+            carving: self.carving.as_ref(),
             limit: self.limits.as_ref().map(|_| &spacing as &dyn Fn(DVec2, bool) -> f64),
             max_triangles: self.options.max_triangles,
         };
         let mut refiner = refine(wishes.lattice, &features, monitor)?;
         let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
         let domain = self.with_fine_rim(domain, refiner.grid().lattice());
-        let too_many =
-            || PslgError::TooMany { limit: self.options.max_triangles, at: wishes.lattice.origin() };
+        let too_many = || PslgError::too_many(self.options.max_triangles, wishes.lattice.origin());
         let dual =
             extract(refiner.grid_mut(), &[], domain, Relocation::Full, monitor).map_err(|e| match e {
                 DualError::Cancelled(c) => PslgError::Cancelled(c),

@@ -37,15 +37,24 @@ pub(crate) struct Contacts {
     pub(crate) crossing: Vec<(u32, u32)>,
 }
 
-/// Finds all contacts. A point within `tolerance` of a segment is on it; of
-/// points within the tolerance of an end none is.
-pub(crate) fn contacts(points: &[DVec2], segments: &[[u32; 2]], tolerance: f64) -> Contacts {
+/// Which points are on a segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch {
+    /// Those within this distance, input units.
+    pub(crate) distance: f64,
+    /// Those seen from both of its ends at less than this angle, radians.
+    pub(crate) angle: f64,
+}
+
+/// Finds all contacts. Of points within the distance of an end none is on a segment
+/// because of that.
+pub(crate) fn contacts(points: &[DVec2], segments: &[[u32; 2]], touch: Touch) -> Contacts {
     let (min, max) = bounding_box(points);
     let half = 0.5 * (max - min).max_element();
-    let mut finder = Finder { points, segments, tolerance, found: Contacts::default() };
+    let mut finder = Finder { points, segments, touch, found: Contacts::default() };
     let [of_segments, of_points] = [segments.len(), points.len()].map(|n| (0..n as u32).collect());
     // Room for points on the sides.
-    let half = half * 1.001 + tolerance;
+    let half = half * 1.001 + touch.distance;
     let mut squares =
         vec![Square { centre: min.midpoint(max), half, segments: of_segments, points: of_points }];
     for _ in 0..DEPTH {
@@ -69,7 +78,7 @@ pub(crate) fn contacts(points: &[DVec2], segments: &[[u32; 2]], tolerance: f64) 
 struct Finder<'a> {
     points: &'a [DVec2],
     segments: &'a [[u32; 2]],
-    tolerance: f64,
+    touch: Touch,
     found: Contacts,
 }
 
@@ -90,8 +99,11 @@ impl Finder<'_> {
             let centre = *centre + DVec2::new(x, y) * (0.5 * half);
             // A thousandth and the tolerance cover rounding and what lies just
             // outside.
-            let reach = 0.5 * half * 1.001 + self.tolerance;
-            let meets = |&s: &u32| meets(self.ends(s), centre, reach);
+            let reach = 0.5 * half * 1.001 + self.touch.distance;
+            let meets = |&s: &u32| {
+                let [a, b] = self.ends(s);
+                meets([a, b], centre, reach + 0.5 * self.touch.angle * a.distance(b))
+            };
             let inside = |p: &u32| (self.points[*p as usize] - centre).abs().max_element() <= reach;
             Square {
                 centre,
@@ -126,7 +138,12 @@ impl Finder<'_> {
         let [a, b] = self.ends(s);
         let p = self.points[p as usize];
         let between = (p - a).dot(b - a) > 0.0 && (p - b).dot(a - b) > 0.0;
-        between && (distance_sq(p, a, b) <= self.tolerance * self.tolerance || orient2d(a, b, p) == 0.0)
+        if !between {
+            return false;
+        }
+        // The angle is the larger at the nearer end.
+        let reach = self.touch.angle * p.distance(a).min(p.distance(b));
+        distance_sq(p, a, b) <= self.touch.distance.max(reach).powi(2) || orient2d(a, b, p) == 0.0
     }
 
     fn cross(&self, r: u32, s: u32) -> bool {
@@ -158,12 +175,14 @@ mod tests {
             raw in prop::collection::vec((0..12_i8, 0..12_i8), 3..30),
             ends in prop::collection::vec((0..30_u32, 0..30_u32), 1..40),
             tolerance in prop::sample::select(vec![0.0, 0.3]),
+            angle in prop::sample::select(vec![0.0, 0.2]),
         ) {
             let points: Vec<DVec2> = raw.iter().map(|&(x, y)| DVec2::new(x.into(), y.into())).collect();
             let n = points.len() as u32;
             let segments: Vec<[u32; 2]> = ends.iter().map(|&(a, b)| [a % n, b % n]).collect();
-            let found = contacts(&points, &segments, tolerance);
-            let mut all = Finder { points: &points, segments: &segments, tolerance, found: Contacts::default() };
+            let touch = Touch { distance: tolerance, angle };
+            let found = contacts(&points, &segments, touch);
+            let mut all = Finder { points: &points, segments: &segments, touch, found: Contacts::default() };
             let every = [segments.len() as u32, n].map(|n| (0..n).collect::<Vec<_>>());
             all.look(&every[0], &every[1]);
             for list in [&mut all.found.touching, &mut all.found.crossing] {

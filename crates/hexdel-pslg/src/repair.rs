@@ -6,9 +6,10 @@
 //! go on until there are none, or are given up. Everything done is reported.
 
 use crate::error::ValidateError;
-use crate::pairs::{Contacts, contacts};
+use crate::geometry::distance_sq;
+use crate::pairs::{Contacts, Touch, contacts};
 use crate::validate::crossing;
-use hexdel_geom::{DVec2, PointSet, Pslg};
+use hexdel_geom::{DVec2, PointSet, Polygon, Pslg};
 use rustc_hash::FxHashMap;
 
 /// Rounds at most. Each brings what is left closer to the rounding of the
@@ -51,6 +52,8 @@ pub enum Repair {
         segment: u32,
         /// Where the point is.
         at: DVec2,
+        /// How far from the segment it was.
+        distance: f64,
     },
     /// Two crossing segments were divided where they cross.
     DividedAtCrossing {
@@ -76,7 +79,8 @@ pub struct RepairReport {
 }
 
 /// Repairs what [`validate`](crate::validate) would find. Points that are not
-/// merged keep their coordinates; holes and regions are left as they are.
+/// merged keep their coordinates; holes and regions are left as they are, polygons
+/// have the parts of their segments.
 ///
 /// Attributes of points made where segments cross are zero, their markers are
 /// those of one of the segments; a part shared by segments has the marker of
@@ -107,17 +111,54 @@ pub struct RepairReport {
 /// # Ok::<(), hexdel_pslg::ValidateError>(())
 /// ```
 pub fn repair(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), ValidateError> {
+    run(pslg, tolerance, 0.0)
+}
+
+/// As [`repair`], and points that nearly lie on a segment divide it, too: those seen
+/// from both of its ends at less than [`NEARLY_ON_DEG`], however far that is.
+///
+/// No mesh keeps bounds between a segment and such a point: strips of so little width take thousands
+/// of triangles.
+///
+/// # Errors
+///
+/// As [`repair`].
+///
+/// # Complexity
+///
+/// As of [`repair`].
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::{DVec2, Pslg};
+///
+/// let mut hanging = Pslg::from_points(vec![DVec2::ZERO, DVec2::new(1e3, 0.0), DVec2::new(500.0, 0.1)]);
+/// hanging.segments = vec![[0, 1]];
+/// let (mended, _) = hexdel_pslg::repair_nearly_on(&hanging, 1e-6)?;
+/// assert_eq!(mended.segments, [[0, 2], [2, 1]]);
+/// # Ok::<(), hexdel_pslg::ValidateError>(())
+/// ```
+pub fn repair_nearly_on(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), ValidateError> {
+    run(pslg, tolerance, NEARLY_ON_DEG.to_radians())
+}
+
+/// The angle at which a point nearly lies on a segment, degrees: a sixth of 0.09, below which nothing
+/// is kept between two segments.
+pub const NEARLY_ON_DEG: f64 = 0.015;
+
+fn run(pslg: &Pslg, tolerance: f64, angle: f64) -> Result<(Pslg, RepairReport), ValidateError> {
     pslg.check_layout()?;
     PointSet::new(&pslg.points)?;
     let tolerance = if tolerance.is_finite() { tolerance.max(0.0) } else { 0.0 };
     let n = pslg.points.len();
     let mut mender = Mender {
         pslg,
-        tolerance,
+        touch: Touch { distance: tolerance, angle },
         points: pslg.points.clone(),
         into: (0..n as u32).collect(),
         markers: pslg.point_markers.clone(),
-        segments: pslg.segments.iter().zip(0..).map(|(&ends, i)| Part { ends, sources: vec![i] }).collect(),
+        segments: pslg.segments.iter().zip(0..).map(|(&ends, i)| Part::new(ends, i)).collect(),
         report: RepairReport::default(),
     };
     for _ in 0..ROUNDS {
@@ -148,11 +189,26 @@ struct Part {
     ends: [u32; 2],
     /// Segments as given, in order.
     sources: Vec<u32>,
+    /// Those of them that run along it an odd number of times: whoever crosses it
+    /// crosses these.
+    odd: Vec<u32>,
+}
+
+impl Part {
+    fn new(ends: [u32; 2], segment: u32) -> Self {
+        Self { ends, sources: vec![segment], odd: vec![segment] }
+    }
+}
+
+/// What is in a list an odd number of times, sorted.
+fn odd(mut list: Vec<u32>) -> Vec<u32> {
+    list.sort_unstable();
+    list.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect()
 }
 
 struct Mender<'a> {
     pslg: &'a Pslg,
-    tolerance: f64,
+    touch: Touch,
     /// All points ever, those given first.
     points: Vec<DVec2>,
     /// The point that each has gone into: itself or an earlier one that has
@@ -173,13 +229,13 @@ impl Mender<'_> {
                 continue;
             }
             let p = self.points[i as usize];
-            let [x, y] = [p.x, p.y].map(|c| cells(c, self.tolerance));
+            let [x, y] = [p.x, p.y].map(|c| cells(c, self.touch.distance));
             let around = x.iter().flat_map(|&x| y.iter().map(move |&y| [x, y]));
             let first = around
                 .filter_map(|key| grid.get(&key))
                 .flatten()
                 .copied()
-                .filter(|&j| p.distance(self.points[j as usize]) <= self.tolerance)
+                .filter(|&j| p.distance(self.points[j as usize]) <= self.touch.distance)
                 .min();
             match first {
                 Some(j) => {
@@ -227,6 +283,8 @@ impl Mender<'_> {
                     other.sources.extend(part.sources);
                     other.sources.sort_unstable();
                     other.sources.dedup();
+                    other.odd.extend(part.odd);
+                    other.odd = odd(std::mem::take(&mut other.odd));
                 }
             }
         }
@@ -237,7 +295,7 @@ impl Mender<'_> {
     /// there was anything to do.
     fn divide(&mut self) -> bool {
         let ends: Vec<[u32; 2]> = self.segments.iter().map(|s| s.ends).collect();
-        let mut found = contacts(&self.points, &ends, self.tolerance);
+        let mut found = contacts(&self.points, &ends, self.touch);
         // Merged points are none.
         found.touching.retain(|&(_, p)| self.into[p as usize] == p);
         let cuts = self.cuts(&found);
@@ -252,8 +310,10 @@ impl Mender<'_> {
     fn cuts(&mut self, found: &Contacts) -> Vec<(u32, u32)> {
         let mut cuts = found.touching.clone();
         for &(segment, p) in &cuts {
-            let segment = self.segments[segment as usize].sources[0];
-            self.report.repairs.push(Repair::DividedAtPoint { segment, at: self.points[p as usize] });
+            let part = &self.segments[segment as usize];
+            let ([a, b], at) = (part.ends.map(|p| self.points[p as usize]), self.points[p as usize]);
+            let (segment, distance) = (part.sources[0], distance_sq(at, a, b).sqrt());
+            self.report.repairs.push(Repair::DividedAtPoint { segment, at, distance });
         }
         // Dividing at points settles most crossings near them.
         if cuts.is_empty() {
@@ -286,7 +346,8 @@ impl Mender<'_> {
     /// Divides one segment at points on it.
     fn cut(&mut self, cuts: &[(u32, u32)]) {
         let segment = cuts[0].0 as usize;
-        let Part { ends: [a, b], sources } = self.segments[segment].clone();
+        let whole = self.segments[segment].clone();
+        let [a, b] = whole.ends;
         let from = self.points[a as usize];
         let direction = self.points[b as usize] - from;
         let mut stops: Vec<(f64, u32)> =
@@ -294,8 +355,26 @@ impl Mender<'_> {
         stops.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let chain: Vec<u32> = std::iter::once(a).chain(stops.into_iter().map(|s| s.1)).chain([b]).collect();
         self.segments[segment].ends = [chain[0], chain[1]];
-        let rest = chain[1..].windows(2).map(|w| Part { ends: [w[0], w[1]], sources: sources.clone() });
+        let rest = chain[1..].windows(2).map(|w| Part { ends: [w[0], w[1]], ..whole.clone() });
         self.segments.extend(rest);
+    }
+
+    /// The polygons, of what has become of their segments.
+    fn polygons(&self) -> Vec<Polygon> {
+        if self.pslg.polygons.is_empty() {
+            return Vec::new();
+        }
+        let parts =
+            self.segments.iter().zip(0_u32..).flat_map(|(part, i)| part.odd.iter().map(move |&s| (s, i)));
+        let mut parts: Vec<(u32, u32)> = parts.collect();
+        parts.sort_unstable();
+        let of_segment = |s: &u32| {
+            let [first, end] = [*s, *s + 1].map(|s| parts.partition_point(|part| part.0 < s));
+            parts[first..end].iter().map(|part| part.1)
+        };
+        let ring = |ring: &Vec<u32>| odd(ring.iter().flat_map(of_segment).collect());
+        let polygon = |p: &Polygon| Polygon { rings: p.rings.iter().map(ring).collect(), ..*p };
+        self.pslg.polygons.iter().map(polygon).collect()
     }
 
     fn finish(self) -> (Pslg, RepairReport) {
@@ -303,6 +382,7 @@ impl Mender<'_> {
         let mut out = Pslg {
             holes: self.pslg.holes.clone(),
             regions: self.pslg.regions.clone(),
+            polygons: self.polygons(),
             attributes_per_point: self.pslg.attributes_per_point,
             ..Pslg::default()
         };

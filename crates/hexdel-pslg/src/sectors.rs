@@ -1,8 +1,10 @@
 //! Corners of the input that are narrower than the bound.
 
+use crate::carve::Carving;
 use crate::fans::{Fan, LEAST_DEG, NARROW_DEG, Scene};
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
+use crate::options::Extent;
 use crate::validate::{Piece, Validated, spatial_order};
 use hexdel_geom::{DVec2, quality};
 use rustc_hash::FxHashSet;
@@ -66,7 +68,7 @@ pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
     let piece =
         |(ends, segment): (&[DVec2; 2], u32)| Piece { ends: [site(&ends[0]), site(&ends[1])], segment };
     let pieces: Vec<Piece> = segments.iter().zip(0..).map(piece).collect();
-    let sectors = Sectors::of(&sites, &pieces, &[], NARROW_DEG);
+    let sectors = Sectors::of(&sites, &pieces, &[], NARROW_DEG, None);
     sectors.wedge_pairs().into_iter().map(|pair| pair.map(|p| p as usize)).collect()
 }
 
@@ -86,19 +88,22 @@ pub struct NarrowCorner {
 }
 
 /// The corners of a graph narrower than `least_deg`, by point: where
-/// [`mesh`](crate::mesh) may go below that lower bound.
+/// [`mesh`](crate::mesh) may go below that lower bound. Corners in holes, and outside of
+/// the extent, are none.
 ///
 /// ```
 /// use hexdel_geom::{DVec2, Pslg};
 ///
 /// let mut graph = Pslg::from_points(vec![DVec2::X, DVec2::ZERO, DVec2::new(1.0, 0.2), DVec2::Y]);
 /// graph.segments = vec![[0, 1], [1, 2], [1, 3]];
-/// let corners = hexdel_pslg::narrow_corners(&hexdel_pslg::validate(&graph)?, 30.0);
+/// let graph = hexdel_pslg::validate(&graph)?;
+/// let corners = hexdel_pslg::narrow_corners(&graph, hexdel_pslg::Extent::Hexagon, 30.0);
 /// assert_eq!((corners[0].point, corners[0].ends, corners.len()), (1, [0, 2], 1));
 /// # Ok::<(), hexdel_pslg::ValidateError>(())
 /// ```
-pub fn narrow_corners(input: &Validated, least_deg: f64) -> Vec<NarrowCorner> {
+pub fn narrow_corners(input: &Validated, extent: Extent, least_deg: f64) -> Vec<NarrowCorner> {
     let scene = Scene::plain(input, input.pieces.clone());
+    let carving = Carving::of(input, extent);
     let corner = |s: &Sector| {
         let end = |p: u32| {
             let [a, b] = scene.pieces[p as usize].ends;
@@ -111,11 +116,20 @@ pub fn narrow_corners(input: &Validated, least_deg: f64) -> Vec<NarrowCorner> {
             given_up: s.angle_deg < LEAST_DEG,
         }
     };
-    narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, least_deg).iter().map(corner).collect()
+    narrow_sectors(&scene.sites, &scene.pieces, &scene.fans, least_deg, carving.as_ref())
+        .iter()
+        .map(corner)
+        .collect()
 }
 
-/// All sectors narrower than `least_deg`.
-fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Vec<Sector> {
+/// All sectors narrower than `least_deg` that are not carved away.
+fn narrow_sectors(
+    sites: &[DVec2],
+    pieces: &[Piece],
+    fans: &[Fan],
+    least_deg: f64,
+    carving: Option<&Carving<'_>>,
+) -> Vec<Sector> {
     let mut rays: Vec<(u32, f64, u32)> = pieces
         .iter()
         .zip(0..)
@@ -137,8 +151,10 @@ fn narrow_sectors(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f6
         }
         for (i, ray) in group.iter().enumerate() {
             let next = group[(i + 1) % group.len()];
-            let angle_deg = (next.1 - ray.1).rem_euclid(TAU).to_degrees();
-            if angle_deg < least_deg {
+            let angle = (next.1 - ray.1).rem_euclid(TAU);
+            let is_carved = || carving.is_some_and(|c| c.is_carved_at(ray.0, ray.1 + 0.5 * angle));
+            let angle_deg = angle.to_degrees();
+            if angle_deg < least_deg && !is_carved() {
                 let fanned = fanned.contains(&ray.0);
                 sectors.push(Sector { fanned, ..sector(sites, pieces, (ray.0, [ray.2, next.2]), angle_deg) });
             }
@@ -176,9 +192,15 @@ pub(crate) fn direction(u: DVec2) -> f64 {
 const SPREAD: f64 = 3.0;
 
 impl Sectors {
-    /// All sectors narrower than `least_deg`.
-    pub(crate) fn of(sites: &[DVec2], pieces: &[Piece], fans: &[Fan], least_deg: f64) -> Self {
-        let all = narrow_sectors(sites, pieces, fans, least_deg);
+    /// All sectors narrower than `least_deg` that are not carved away.
+    pub(crate) fn of(
+        sites: &[DVec2],
+        pieces: &[Piece],
+        fans: &[Fan],
+        least_deg: f64,
+        carving: Option<&Carving<'_>>,
+    ) -> Self {
+        let all = narrow_sectors(sites, pieces, fans, least_deg, carving);
         let order = spatial_order(&all.iter().map(|s| s.corner).collect::<Vec<_>>());
         let mut sectors = Self { boxes: vec![EMPTY; 2 * all.len().next_power_of_two()], all, order };
         if !sectors.all.is_empty() {

@@ -7,12 +7,16 @@
 //! small angles do not cascade; neither does the level of one leaf ask anything
 //! of the next along a segment, beyond what the rules of the grid do.
 //!
+//! What is carved away parts features, however close they are: neither side knows
+//! anything of the other.
+//!
 //! The disc around a leaf's centre holds the discs around its children's, as
 //! they lie half a spacing away at most and `RHO >= 1`. So a child looks at
 //! what its parent saw and at nothing else: the work is near-linear.
 
+use crate::carve::Carving;
 use crate::error::{Feature, PslgError};
-use crate::geometry::distance_sq;
+use crate::geometry::{distance_sq, nearest_places};
 use crate::limits::positive;
 use crate::validate::Piece;
 use hexdel_geom::monitor::{Monitor, check};
@@ -25,7 +29,7 @@ use rustc_hash::FxHashSet;
 /// cell's circumradius (`1 / sqrt(3)`) sees to it that two features in it have
 /// a hexagon between them; a smaller factor down to 1 would save a third of
 /// the triangles and cost a few per cent of the placements.
-const RHO: f64 = 1.154_700_538_4;
+pub(crate) const RHO: f64 = 1.154_700_538_4;
 
 /// Spacings of the coarsest leaves at features in the input's radius: a single
 /// segment is divided into a few parts at least.
@@ -37,6 +41,14 @@ const LAST_PLACES: f64 = 65536.0;
 
 /// Hexagons of level 0 are this many radii of the input wide.
 const LEVEL_0_RADII: f64 = 4.0;
+
+/// Triangles that a leaf at a feature stands for: two at least, and a subdivision makes
+/// three more vertices.
+pub(crate) const LEAF_TRIANGLES: f64 = 6.0;
+
+/// Features up to which a leaf looks at all pairs for one that is not parted by what is
+/// carved away.
+const FEW: usize = 24;
 
 /// A disc in which hexagons must not be wider than `spacing`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +64,8 @@ pub(crate) struct Features<'a> {
     pub(crate) pieces: &'a [Piece],
     pub(crate) input_of_site: &'a [u32],
     pub(crate) demands: &'a [Demand],
+    /// What is carved away, if anything is.
+    pub(crate) carving: Option<&'a Carving<'a>>,
     /// The largest spacing allowed at a place, with points or segments near by or
     /// not, if there is a limit anywhere.
     pub(crate) limit: Option<&'a dyn Fn(DVec2, bool) -> f64>,
@@ -103,10 +117,8 @@ pub(crate) fn refine(
             }
         }
         let Some(&finest) = wanted.iter().max() else { return Ok(refiner) };
-        // A leaf at a feature stands for two triangles at least, and a
-        // subdivision makes three more vertices.
-        if 6 * (leaves.len() + wanted.len()) > features.max_triangles {
-            return Err(PslgError::TooMany { limit: features.max_triangles, at: lattice.position(finest) });
+        if LEAF_TRIANGLES * (leaves.len() + wanted.len()) as f64 > features.max_triangles as f64 {
+            return Err(PslgError::too_many(features.max_triangles, lattice.position(finest)));
         }
         refiner.subdivide_all(wanted, monitor).map_err(|error| match error {
             RefineError::Cancelled(c) => PslgError::Cancelled(c),
@@ -193,7 +205,7 @@ impl Sizer<'_> {
         }
         // Only what the input asks for is its fault; a mere wish is left.
         match culprits {
-            Some(items) => Err(PslgError::TooClose { items, at, spacing }),
+            Some(items) => Err(PslgError::TooClose { items, at, distance: None, spacing }),
             None => Ok(false),
         }
     }
@@ -228,6 +240,11 @@ impl Sizer<'_> {
         let (points, rest) = leaf.seen.split_at(split);
         let end = rest.partition_point(|&i| i < sites + f.pieces.len() as u32);
         let pieces = &rest[..end];
+        if let Some(carving) = f.carving
+            && points.len() + pieces.len() <= FEW
+        {
+            return self.unparted(carving, points, pieces);
+        }
         let point = |s: u32| Feature::Point(f.input_of_site[s as usize] as usize);
         let segment = |i: u32| f.pieces[(i - sites) as usize].feature();
         let ends = |i: u32| f.pieces[(i - sites) as usize].ends;
@@ -236,6 +253,34 @@ impl Sizer<'_> {
             [a] => pieces.iter().find(|&&i| !ends(i).contains(&a)).map(|&i| [point(a), segment(i)]),
             [] => apart(pieces, ends).map(|[i, j]| [segment(i), segment(j)]),
         }
+    }
+}
+
+impl Sizer<'_> {
+    /// Two features without a common end between which not all is carved away, or which are
+    /// closer than coordinates tell.
+    fn unparted(&self, carving: &Carving<'_>, points: &[u32], pieces: &[u32]) -> Option<[Feature; 2]> {
+        let f = self.features;
+        let sites = f.sites.len() as u32;
+        let all: Vec<u32> = points.iter().chain(pieces).copied().collect();
+        let ends = |i: u32| match f.pieces.get((i.wrapping_sub(sites)) as usize) {
+            Some(piece) if i >= sites => piece.ends,
+            _ => [i; 2],
+        };
+        let places = |i: u32| ends(i).map(|site| f.sites[site as usize]);
+        let feature = |i: u32| match i.checked_sub(sites) {
+            Some(piece) => f.pieces[piece as usize].feature(),
+            None => Feature::Point(f.input_of_site[i as usize] as usize),
+        };
+        let meets = |i: u32, j: u32| ends(i).iter().any(|end| ends(j).contains(end));
+        let conflict = |i: u32, j: u32| {
+            let [p, q] = nearest_places(places(i), places(j));
+            let resolved = LAST_PLACES * f64::EPSILON * p.abs().max_element();
+            p.distance(q) <= resolved || !carving.parts(p, q)
+        };
+        let pairs = all.iter().enumerate().flat_map(|(k, &j)| all[..k].iter().map(move |&i| [i, j]));
+        let found = pairs.into_iter().find(|&[i, j]| !meets(i, j) && conflict(i, j));
+        found.map(|pair| pair.map(feature))
     }
 }
 

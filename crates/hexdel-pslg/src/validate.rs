@@ -148,6 +148,7 @@ fn examine(pslg: &Pslg) -> Result<(Validated, Vec<ValidateError>), ValidateError
             return Err(ValidateError::NotFinite { item, index, point });
         }
     }
+    check_rings(pslg, &points)?;
     // Four vertices of the rectangle and the pieces' numbers share 32 bits.
     if points.sites().len() + 4 > NONE as usize {
         return Err(PointsError::TooMany { count: points.sites().len() }.into());
@@ -166,6 +167,23 @@ fn examine(pslg: &Pslg) -> Result<(Validated, Vec<ValidateError>), ValidateError
         examiner.segment(segment);
     }
     Ok((examiner.of, examiner.violations))
+}
+
+/// An even number of a ring's segments ends at each point.
+fn check_rings(pslg: &Pslg, points: &PointSet) -> Result<(), ValidateError> {
+    let rings = pslg.polygons.iter().enumerate();
+    for (polygon, ring, segments) in
+        rings.flat_map(|(p, polygon)| polygon.rings.iter().enumerate().map(move |(r, ring)| (p, r, ring)))
+    {
+        let ends = segments.iter().flat_map(|&s| pslg.segments[s as usize]);
+        let mut sites: Vec<u32> = ends.map(|p| points.site_of_input()[p as usize]).collect();
+        sites.sort_unstable();
+        if let Some(odd) = sites.chunk_by(|a, b| a == b).find(|same| same.len() % 2 == 1) {
+            let at = points.sites()[odd[0] as usize];
+            return Err(ValidateError::OpenRing { polygon, ring, at });
+        }
+    }
+    Ok(())
 }
 
 fn check_range(points: &PointSet) -> Result<(), ValidateError> {

@@ -87,6 +87,21 @@ pub enum Error {
     /// A graph could not be meshed.
     #[error(transparent)]
     Pslg(PslgError),
+    /// Two polygons overlap, which was to be an error.
+    #[error(
+        "polygons {} (attribute {}) and {} (attribute {}) overlap at ({}, {}), area {area}",
+        polygons[0], attributes[0], polygons[1], attributes[1], at.x, at.y
+    )]
+    Overlap {
+        /// Their indices.
+        polygons: [u32; 2],
+        /// Their attributes.
+        attributes: [f64; 2],
+        /// A point in the largest part.
+        at: DVec2,
+        /// The area of all parts, square input units.
+        area: f64,
+    },
     /// A tolerance of repair is not a number, or negative.
     #[error("{tolerance:?} is no tolerance")]
     InvalidTolerance {

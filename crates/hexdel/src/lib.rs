@@ -65,9 +65,10 @@ pub use hexdel_pslg as pslg;
 pub use hexdel_refine as refine;
 
 pub use error::Error;
-pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry};
+pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry, WarningEntry};
 pub use graph::result::PslgTriangulation;
-pub use graph::{Domain, triangulate_pslg};
+pub use graph::warning::Warning;
+pub use graph::{Domain, Overlaps, triangulate_pslg};
 pub use hexdel_geom::{
     AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
 };

@@ -4,7 +4,7 @@ use super::finding;
 use hexdel::geom::certificate::Violation;
 use hexdel::geom::segments::{covered, is_on};
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, MissingSegment, SegmentCheck, check_segments, quality};
-use hexdel::{Certificate, DVec2, Pslg, TriMesh, pslg};
+use hexdel::{Certificate, DVec2, Mesher, Pslg, TriMesh, pslg};
 use serde::Serialize;
 use std::cmp::Ordering;
 
@@ -21,7 +21,13 @@ impl OfGraph {
     /// Holds a mesh against a graph. Exempt triangles, and points in holes or
     /// outside, are taken out of the certificate.
     pub(super) fn new(mesh: &TriMesh, graph: &Pslg, certificate: &mut Certificate) -> Self {
-        let domain = Wanted::of(graph, certificate.bounds.min_deg());
+        // Of polygons the holes and regions that meshes are made of.
+        let prepared = Some(graph).filter(|g| !g.polygons.is_empty());
+        let prepared = prepared.and_then(|graph| Mesher::new().prepared_pslg(graph).ok());
+        // Places that are merged would have other numbers.
+        let prepared = prepared.filter(|p| p.points.starts_with(&graph.points));
+        let graph = prepared.as_ref().unwrap_or(graph);
+        let domain = Wanted::of(mesh, graph, certificate.bounds.min_deg());
         let mut segments = check_segments(mesh, &graph.points, &domain.pieces);
         let midpoints: Vec<DVec2> = segments.missing.iter().map(|m| m.ends[0].midpoint(m.ends[1])).collect();
         let mut covers = covered(mesh, &midpoints).into_iter();
@@ -149,6 +155,19 @@ fn order(p: &DVec2, q: &DVec2) -> Ordering {
     p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))
 }
 
+/// What a mesh covers: the inside if its area says so, or more.
+fn extent_of(mesh: &TriMesh, graph: &pslg::Validated) -> pslg::Extent {
+    let areas = graph.areas(pslg::Extent::Inside);
+    let inside = areas.of_region.iter().sum::<f64>() + areas.of_none;
+    let corners = mesh.triangles.iter().map(|t| t.map(|v| mesh.vertices.get(v.index()).copied()));
+    let area = |corners: [Option<DVec2>; 3]| match corners {
+        [Some(a), Some(b), Some(c)] => 0.5 * (b - a).perp_dot(c - a),
+        _ => 0.0,
+    };
+    let covered: f64 = corners.map(area).sum();
+    if covered <= inside * (1.0 + 1e-9) { pslg::Extent::Inside } else { pslg::Extent::Hexagon }
+}
+
 /// What a mesh must have of a graph.
 struct Wanted {
     /// The segments, divided where points lie on them.
@@ -166,7 +185,7 @@ struct Wanted {
 }
 
 impl Wanted {
-    fn of(graph: &Pslg, least_deg: f64) -> Self {
+    fn of(mesh: &TriMesh, graph: &Pslg, least_deg: f64) -> Self {
         let Ok(valid) = pslg::validate(graph) else {
             // The mesh may have been made of what repair made of the graph; its
             // segments are looked for as they are.
@@ -181,7 +200,7 @@ impl Wanted {
         };
         let carved = valid.carved(true);
         let (segment_of_piece, pieces) = valid.pieces().unzip();
-        let corners = pslg::narrow_corners(&valid, least_deg);
+        let corners = pslg::narrow_corners(&valid, extent_of(mesh, &valid), least_deg);
         let at = |p: u32| graph.points[p as usize];
         let mut narrow: Vec<DVec2> = corners.iter().map(|c| at(c.point)).collect();
         narrow.sort_by(order);

@@ -1,12 +1,14 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
-use super::{Args, Report, columns_line, limited, write};
+use super::{Args, OverlapsName, Report, columns_line, limited, write};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::triangle::Numbered;
 use hexdel::pslg::violations;
-use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
+use hexdel::{
+    AngleBounds, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod, Warning,
+};
 use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile};
 use std::fmt::{Display, Write as _};
 
@@ -89,6 +91,15 @@ impl Finished<'_> {
         if !self.quiet {
             outputs.tell(&summary(made, &report, self.input))?;
         }
+        // Divided borders are among the repairs.
+        let told = |w: &&Warning| !matches!(w, Warning::DividedBorders { .. });
+        let warnings: Vec<&Warning> = made.warnings.iter().filter(told).collect();
+        for warning in warnings.iter().take(SHOWN) {
+            warn(&format!("{}: {warning}", self.file));
+        }
+        if warnings.len() > SHOWN {
+            warn(&format!("{}: {} more, see --report", self.file, warnings.len() - SHOWN));
+        }
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));
         }
@@ -117,6 +128,9 @@ fn mesher(args: &Args) -> Result<Mesher, Failure> {
     }
     if let Some(way) = args.pslg {
         mesher = mesher.segment_method(way.method());
+    }
+    if args.overlaps == OverlapsName::Refuse {
+        mesher = mesher.overlaps(Overlaps::Refuse);
     }
     Ok(match args.repair {
         None => mesher,

@@ -71,10 +71,14 @@ pub(crate) struct Args {
     /// The same by place: a raster (.asc), or points with sizes (x y size)
     #[arg(long, value_name = "FILE")]
     size_file: Option<PathBuf>,
-    /// Merge close points, split crossing segments [TOL: 1e-9 of the size]
+    /// Merge close points, split segments at crossings and points [TOL: 1e-9 of the size]
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
     repair: Option<Option<f64>>,
+    /// Where polygons overlap: later (its attribute, with a warning) or refuse
+    #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true, default_value = "later")]
+    #[arg(hide_default_value = true)]
+    overlaps: OverlapsName,
     /// How segments fit in: conform, or paper (keeps no bounds there)
     #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true)]
     pslg: Option<PslgName>,
@@ -108,6 +112,12 @@ enum DomainName {
     Hull,
     Box,
     Inside,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum OverlapsName {
+    Later,
+    Refuse,
 }
 
 #[derive(Clone, Copy, ValueEnum)]

@@ -91,7 +91,7 @@ pub(crate) fn mesh(
     let wedges = Wedges::default();
     let judge = Judge { near: options.near, far: options.far, wedges: &wedges };
     // Templates excuse more than narrow corners could.
-    let sectors = Sectors::of(&[], &[], &[], 0.0);
+    let sectors = Sectors::of(&[], &[], &[], 0.0, None);
     // Nothing here takes time that could be spared.
     let deadline = Deadline::after(None);
     let plain = fans::Scene::plain(input, pieces.clone());
@@ -124,6 +124,7 @@ fn start(
         pieces: &[],
         input_of_site: &[],
         demands,
+        carving: None,
         limit: Some(&spacing),
         max_triangles: options.max_triangles,
     };
@@ -165,7 +166,7 @@ fn plain(
     monitor: &dyn Monitor,
 ) -> Result<Plain, PslgError> {
     let lattice = *refiner.grid().lattice();
-    let too_many = || PslgError::TooMany { limit: scene.max_triangles, at: lattice.origin() };
+    let too_many = || PslgError::too_many(scene.max_triangles, lattice.origin());
     let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, reach);
     let occupants = refiner.occupants();
     // All that is passed gets a vertex to ask for; points come last, so that

@@ -117,9 +117,10 @@ impl Scene<'_> {
                 Some(pair) => PslgError::TooClose {
                     items: [self.point(pair.a), self.point(pair.b)],
                     at: self.sites[pair.a],
+                    distance: Some(pair.distance),
                     spacing: pair.distance,
                 },
-                None => PslgError::TooMany { limit: self.max_triangles, at: DVec2::ZERO },
+                None => PslgError::too_many(self.max_triangles, self.sites[0]),
             },
         }
     }
@@ -208,10 +209,7 @@ impl Chains {
             triangles += LEAST_TRIANGLES * length / spacing;
             if triangles > scene.max_triangles as f64 || spacing < least {
                 let piece = self.chain_of.iter().position(|&c| c as usize == i).unwrap_or(0);
-                return Err(PslgError::TooMany {
-                    limit: scene.max_triangles,
-                    at: scene.ends(piece as u32)[0],
-                });
+                return Err(PslgError::too_many(scene.max_triangles, scene.ends(piece as u32)[0]));
             }
         }
         Ok(())
@@ -241,8 +239,8 @@ impl Chains {
             let (at, spacing) = (grid.lattice().position(raise.at), grid.lattice().spacing(level));
             if level >= Grid::MAX_LEVELS || spacing < least_spacing(scene) {
                 return Err(match raise.culprits {
-                    Some(items) => PslgError::TooClose { items, at, spacing },
-                    None => PslgError::TooMany { limit: scene.max_triangles, at },
+                    Some(items) => PslgError::TooClose { items, at, distance: None, spacing },
+                    None => PslgError::too_many(scene.max_triangles, at),
                 });
             }
             self.level[chain] = level;

@@ -9,6 +9,7 @@ mod repair;
 pub(crate) mod report;
 pub(crate) mod result;
 mod verify;
+pub(crate) mod warning;
 mod watch;
 
 use crate::error::Error;
@@ -18,10 +19,11 @@ use crate::size::SizeError;
 use crate::sized;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Unwatched, smallest_enclosing_circle};
 use hexdel_pslg::{
-    Extent, Options, PslgError, PslgMesh, SegmentMethod, Validated, mesh, mesh_sized, validate,
+    Extent, Options, PslgError, PslgMesh, Seed, SegmentMethod, Validated, mesh, mesh_sized, validate,
 };
 use repair::Repaired;
 use result::PslgTriangulation;
+use warning::Warning;
 use watch::Stopwatch;
 
 /// The part of the plane that the mesh of a graph covers. Holes are left out of
@@ -71,6 +73,18 @@ pub(crate) enum Tolerance {
     Absolute(f64),
 }
 
+/// What is made of polygons that overlap and differ in attribute or largest area.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Overlaps {
+    /// The later polygon's attribute and largest area are taken, with a
+    /// [warning](Warning::Overlap).
+    #[default]
+    Later,
+    /// They are an error.
+    Refuse,
+}
+
 /// Options that points alone have no use for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GraphOptions {
@@ -78,6 +92,7 @@ pub(crate) struct GraphOptions {
     near: Option<AngleBounds>,
     max_area: Option<f64>,
     repair: Option<Tolerance>,
+    overlaps: Overlaps,
     segments: Option<SegmentMethod>,
 }
 
@@ -95,6 +110,7 @@ impl GraphOptions {
             ("bounds near segments", self.near.is_some()),
             ("a limit on areas", self.max_area.is_some()),
             ("repair", self.repair.is_some()),
+            ("a way with overlaps", self.overlaps != Overlaps::default()),
             ("a way with segments", self.segments.is_some()),
         ];
         match given.into_iter().find(|(_, given)| *given) {
@@ -209,7 +225,8 @@ impl Mesher {
 
     /// Repairs graphs first: points within a billionth of the graph's size
     /// become one, segments are divided where they cross and where points lie on
-    /// them. [`PslgTriangulation::repairs`] tells all that was done.
+    /// them, or nearly so: seen from both ends at less than 0.015 degrees.
+    /// [`PslgTriangulation::repairs`] tells all that was done.
     ///
     /// ```
     /// # use hexdel::{DVec2, Error, Mesher, Pslg};
@@ -229,7 +246,8 @@ impl Mesher {
         self
     }
 
-    /// As [`repair`](Self::repair), with a tolerance in input units.
+    /// As [`repair`](Self::repair), with a tolerance in input units for points near others and
+    /// near segments.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, Pslg};
@@ -245,7 +263,30 @@ impl Mesher {
         self
     }
 
-    /// Meshes a graph of points and segments, with holes and regions. Points
+    /// What is made of polygons that overlap, by default the later one's attribute with a
+    /// [warning](PslgTriangulation::warnings).
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Error, Mesher, Overlaps, Pslg, geom::Polygon};
+    /// // A square in a square.
+    /// let corners = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0), (1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0)];
+    /// let mut graph = Pslg::from_points(corners.map(|(x, y)| DVec2::new(x, y)).to_vec());
+    /// graph.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]];
+    /// let ring = |first: u32, attribute| Polygon { rings: vec![(first..first + 4).collect()], attribute, max_area: None };
+    /// graph.polygons = vec![ring(0, 1.0), ring(4, 2.0)];
+    /// let made = hexdel::triangulate_pslg(&graph)?;
+    /// assert!(made.region_attributes().contains(&2.0) && made.warnings.len() == 1);
+    /// let refused = Mesher::new().overlaps(Overlaps::Refuse).triangulate_pslg(&graph);
+    /// assert!(matches!(refused, Err(Error::Overlap { polygons: [0, 1], .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn overlaps(mut self, overlaps: Overlaps) -> Self {
+        self.graph.overlaps = overlaps;
+        self
+    }
+
+    /// Meshes a graph of points and segments, with holes, regions and polygons. Points
     /// alone are a graph, too ([`Pslg::from_points`]).
     ///
     /// # Guarantees
@@ -285,16 +326,38 @@ impl Mesher {
         self.on_threads(|| self.run_pslg(pslg, monitor))
     }
 
+    /// The graph that is meshed: repaired if asked for, borders of polygons divided where
+    /// they meet others, and holes and regions in place of polygons.
+    ///
+    /// # Errors
+    ///
+    /// As [`triangulate_pslg`](Self::triangulate_pslg).
+    pub fn prepared_pslg(&self, pslg: &Pslg) -> Result<Pslg, Error> {
+        let mut repaired = Repaired::new(pslg, self.graph.repair)?;
+        let validated = validate(&repaired.graph).map_err(|e| repaired.as_given(e))?;
+        let (validated, _) = self.seeded(validated, self.domain_of(pslg).extent(), pslg)?;
+        repaired.seed(validated.pslg());
+        Ok(repaired.graph)
+    }
+
+    fn domain_of(&self, graph: &Pslg) -> Domain {
+        let usual = if graph.segments.is_empty() { Domain::Hexagon } else { Domain::Inside };
+        self.graph.domain.unwrap_or(usual)
+    }
+
     fn run_pslg(&self, pslg: &Pslg, monitor: &dyn Monitor) -> Result<PslgTriangulation, Error> {
         self.refuse_for_graphs()?;
         let watch = Stopwatch::new(monitor);
-        let repaired = Repaired::new(pslg, self.graph.repair)?;
+        let mut repaired = Repaired::new(pslg, self.graph.repair)?;
         let graph = &repaired.graph;
-        let given = self.graph.domain;
-        let domain =
-            given.unwrap_or(if graph.segments.is_empty() { Domain::Hexagon } else { Domain::Inside });
+        let domain = self.domain_of(graph);
         let boxed = (domain == Domain::Box).then(|| boxed::with_box(graph));
         let validated = validate(boxed.as_ref().unwrap_or(graph)).map_err(|e| repaired.as_given(e))?;
+        let (validated, mut warnings) = self.seeded(validated, domain.extent(), pslg)?;
+        let unasked = repaired.report.as_ref().filter(|_| self.graph.repair.is_none());
+        warnings.extend(unasked.and_then(warning::of_division));
+        repaired.seed(validated.pslg());
+        let graph = &repaired.graph;
         self.check_graph_size(&graph.points)?;
         let mut made =
             self.mesh_of_graph(&validated, domain, &watch).map_err(|e| repaired.error_as_given(e))?;
@@ -307,7 +370,30 @@ impl Mesher {
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
         let made = PslgTriangulation::new(made, segments, repaired, domain, watch.seconds());
-        Ok(PslgTriangulation { size_ratio, ..made })
+        Ok(PslgTriangulation { warnings, size_ratio, ..made })
+    }
+
+    /// A graph with holes and regions in place of polygons, and what is to be said of them.
+    fn seeded(
+        &self,
+        validated: Validated,
+        extent: Extent,
+        given: &Pslg,
+    ) -> Result<(Validated, Vec<Warning>), Error> {
+        let (validated, cover) = validated.seeded(extent);
+        let mut warnings = warning::of_cover(&cover, given);
+        if let (Overlaps::Refuse, Some(&Warning::Overlap { polygons, attributes, at, area })) =
+            (self.graph.overlaps, warnings.first())
+        {
+            return Err(Error::Overlap { polygons, attributes, at, area });
+        }
+        let own = |seed| match seed {
+            Seed::Hole(i) => (i as usize) < given.holes.len(),
+            Seed::Region(i) => (i as usize) < given.regions.len(),
+        };
+        let unused = validated.unused_seeds(extent).into_iter().filter(|unused| own(unused.seed));
+        warnings.extend(unused.map(Warning::UnusedSeed));
+        Ok((validated, warnings))
     }
 
     fn mesh_of_graph(
@@ -316,7 +402,12 @@ impl Mesher {
         domain: Domain,
         monitor: &dyn Monitor,
     ) -> Result<PslgMesh, PslgError> {
-        let options = self.pslg_options(domain);
+        let mut options = self.pslg_options(domain);
+        // Without segments there is nothing that asks for less than points do.
+        let points_alone = graph.pslg().segments.is_empty() && domain == Domain::Hexagon;
+        if points_alone && self.graph.near.is_none() && self.bounds.is_none() {
+            options.near = options.far;
+        }
         match &self.size {
             Some(size) => mesh_sized(graph, &options, size, monitor),
             None => mesh(graph, &options, monitor),

@@ -3,7 +3,10 @@
 use super::Tolerance;
 use crate::error::Error;
 use hexdel_geom::{DVec2, Pslg};
-use hexdel_pslg::{Feature, LooseEnd, PslgError, RepairReport, ValidateError, drop_repeated, repair};
+use hexdel_pslg::{
+    Feature, LooseEnd, Near, PslgError, Repair, RepairReport, ValidateError, drop_repeated, repair,
+    repair_nearly_on, violations,
+};
 
 /// The tolerance over the graph's size; a hundredth of the width of the thinnest
 /// hair that coordinates of that size resolve angles in would still do.
@@ -22,18 +25,55 @@ pub(crate) struct Repaired {
 
 impl Repaired {
     pub(super) fn new(given: &Pslg, tolerance: Option<Tolerance>) -> Result<Self, Error> {
-        let tolerance = match tolerance {
+        let (graph, report) = match tolerance {
+            None if !given.polygons.is_empty() => return Self::divided(given),
             None => {
                 let dropped = drop_repeated(given).map(|(graph, report)| (graph, Some(report)));
                 let (graph, report) = dropped.unwrap_or_else(|| (given.clone(), None));
                 return Ok(Self { graph, report });
             }
-            Some(Tolerance::Relative) => relative(given),
-            Some(Tolerance::Absolute(tolerance)) if tolerance.is_finite() && tolerance >= 0.0 => tolerance,
+            Some(Tolerance::Relative) => repair_nearly_on(given, relative(given))?,
+            Some(Tolerance::Absolute(tolerance)) if tolerance.is_finite() && tolerance >= 0.0 => {
+                repair(given, tolerance)?
+            }
             Some(Tolerance::Absolute(tolerance)) => return Err(Error::InvalidTolerance { tolerance }),
         };
-        let (graph, report) = repair(given, tolerance)?;
         Ok(Self { graph, report: Some(report) })
+    }
+
+    /// A graph whose polygons' borders are divided where they meet those of others, or
+    /// lines: that is how maps are drawn. Whatever else is wrong stays so.
+    fn divided(given: &Pslg) -> Result<Self, Error> {
+        let as_given = Self { graph: given.clone(), report: None };
+        if given.polygons.is_empty() || violations(given).is_empty() {
+            return Ok(as_given);
+        }
+        let owners = Owners::of(given);
+        let Ok((graph, report)) = repair(given, 0.0) else { return Ok(as_given) };
+        for done in &report.repairs {
+            match *done {
+                Repair::DividedAtCrossing { segments, at } if !owners.differ(segments) => {
+                    return Err(ValidateError::Crossing { segments: segments.map(|s| s as usize), at }.into());
+                }
+                // Lines that are there twice are dropped wherever they are.
+                Repair::MergedSegments { segments, ends }
+                    if !owners.differ(segments) && !owners.of_segment(segments[0]).is_empty() =>
+                {
+                    return Err(
+                        ValidateError::Overlap { segments: segments.map(|s| s as usize), ends }.into()
+                    );
+                }
+                _ => {}
+            }
+        }
+        Ok(Self { graph, report: Some(report) })
+    }
+
+    /// Takes over the holes and regions that polygons have become.
+    pub(super) fn seed(&mut self, seeded: &Pslg) {
+        self.graph.polygons.clear();
+        self.graph.holes.clone_from(&seeded.holes);
+        self.graph.regions.clone_from(&seeded.regions);
     }
 
     /// An error of validation in the numbers of the graph given.
@@ -62,8 +102,12 @@ impl Repaired {
             other => other,
         };
         let error = match error {
-            PslgError::TooClose { items, at, spacing } => {
-                PslgError::TooClose { items: items.map(item), at, spacing }
+            PslgError::TooClose { items, at, distance, spacing } => {
+                PslgError::TooClose { items: items.map(item), at, distance, spacing }
+            }
+            PslgError::TooMany { limit, at, near } => {
+                let near = near.map(|near| Near { items: near.items.map(item), ..near });
+                PslgError::TooMany { limit, at, near }
             }
             PslgError::NothingEnclosed { loose, count } => {
                 let given =
@@ -88,6 +132,35 @@ impl Repaired {
     fn segment(&self, segment: usize) -> usize {
         let report = self.report.as_ref();
         report.and_then(|r| r.sources.get(segment)?.first()).map_or(segment, |&s| s as usize)
+    }
+}
+
+/// The polygons whose border each segment is a part of.
+struct Owners {
+    /// Segments and polygons, sorted.
+    all: Vec<[u32; 2]>,
+}
+
+impl Owners {
+    fn of(graph: &Pslg) -> Self {
+        let polygons = graph.polygons.iter().zip(0_u32..);
+        let mut all: Vec<[u32; 2]> =
+            polygons.flat_map(|(p, i)| p.rings.iter().flatten().map(move |&segment| [segment, i])).collect();
+        all.sort_unstable();
+        all.dedup();
+        Self { all }
+    }
+
+    fn of_segment(&self, segment: u32) -> &[[u32; 2]] {
+        let [first, end] = [segment, segment + 1].map(|s| self.all.partition_point(|owner| owner[0] < s));
+        &self.all[first..end]
+    }
+
+    /// Whether no polygon has both segments, and one of them is of a polygon.
+    fn differ(&self, segments: [u32; 2]) -> bool {
+        let [a, b] = segments.map(|s| self.of_segment(s));
+        let shared = a.iter().any(|x| b.iter().any(|y| x[1] == y[1]));
+        !(shared || a.is_empty() && b.is_empty())
     }
 }
 

@@ -1,6 +1,7 @@
 //! The figures of a graph's mesh, for a file or a pipe.
 
 use super::result::PslgTriangulation;
+use super::warning::Warning;
 use crate::triangulation::Seconds;
 use hexdel_geom::{Certificate, DVec2, Pslg, Voronoi, VoronoiSummary};
 use hexdel_pslg::{Exception, Reason, Repair, SegmentMethod};
@@ -41,6 +42,8 @@ pub struct PslgReport<'a> {
     pub failed: Vec<ExceptionEntry>,
     /// What repair did, in order.
     pub repairs: Vec<RepairEntry>,
+    /// What is not used of the graph, or could have been meant otherwise.
+    pub warnings: Vec<WarningEntry>,
     /// How often parts of the grid were refined because bounds were not met.
     pub retries: u32,
     /// Whether the budget ended optimisation before its end.
@@ -95,6 +98,22 @@ pub struct RepairEntry {
     pub at: DVec2,
 }
 
+/// Something to know about the graph.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WarningEntry {
+    /// What, in words.
+    pub what: String,
+    /// Where.
+    pub at: DVec2,
+}
+
+impl WarningEntry {
+    fn new(warning: &Warning) -> Self {
+        Self { what: warning.to_string(), at: warning.at() }
+    }
+}
+
 impl<'a> PslgReport<'a> {
     pub(super) fn new(made: &'a PslgTriangulation) -> Self {
         let entries = |list: &[Exception]| list.iter().map(|e| ExceptionEntry::new(e, &made.graph)).collect();
@@ -116,6 +135,7 @@ impl<'a> PslgReport<'a> {
             size_ratio: made.size_ratio,
             failed: entries(&made.failed),
             repairs: repairs.map(RepairEntry::new).collect(),
+            warnings: made.warnings.iter().map(WarningEntry::new).collect(),
             retries: made.retries,
             budget_spent: made.budget_spent,
             seconds: made.seconds,
@@ -189,8 +209,11 @@ impl RepairEntry {
             Repair::MergedSegments { segments: [a, b], ends } => {
                 (format!("segments {a} and {b} had a part in common"), ends[0])
             }
-            Repair::DividedAtPoint { segment, at } => {
+            Repair::DividedAtPoint { segment, at, distance: 0.0 } => {
                 (format!("segment {segment} passed through a point"), at)
+            }
+            Repair::DividedAtPoint { segment, at, distance } => {
+                (format!("segment {segment} was bent to a point {distance:e} away"), at)
             }
             Repair::DividedAtCrossing { segments: [a, b], at } => {
                 (format!("segments {a} and {b} crossed"), at)

@@ -3,6 +3,7 @@
 use super::Domain;
 use super::repair::Repaired;
 use super::report::PslgReport;
+use super::warning::Warning;
 use crate::triangulation::Seconds;
 use hexdel_geom::{Certificate, Pslg, SegmentCheck, TriMesh, VertexId};
 use hexdel_pslg::{Exception, PslgMesh, RepairReport, SegmentEdge, SegmentMethod, holds};
@@ -10,7 +11,8 @@ use hexdel_pslg::{Exception, PslgMesh, RepairReport, SegmentEdge, SegmentMethod,
 /// A mesh of a graph of points and segments.
 ///
 /// Points, segments and regions are counted as in [`graph`](Self::graph): the
-/// graph given, or what repair has made of it.
+/// graph given, or what repair has made of it, with holes and regions in place of
+/// polygons.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct PslgTriangulation {
@@ -18,10 +20,13 @@ pub struct PslgTriangulation {
     pub mesh: TriMesh,
     /// What was meshed.
     pub graph: Pslg,
-    /// What repair did, if it was asked for: all changes, and which points and
+    /// What repair did, if it was asked for, or if borders of polygons had to be divided
+    /// where they cross or run along each other: all changes, and which points and
     /// segments given have become which of the graph. Segments without length and those
     /// that are the same as another are dropped without being asked for, and listed here.
     pub repairs: Option<RepairReport>,
+    /// What is not used of the graph, or could have been meant otherwise.
+    pub warnings: Vec<Warning>,
     /// The vertex of each point of the graph; duplicates share one. `None` for a
     /// point in a hole or outside of the domain.
     pub vertex_of_point: Vec<Option<VertexId>>,
@@ -79,6 +84,7 @@ impl PslgTriangulation {
             mesh: made.mesh,
             graph: repaired.graph,
             repairs: repaired.report,
+            warnings: Vec::new(),
             vertex_of_point: made.vertex_of_point,
             point_of_vertex: made.point_of_vertex,
             vertex_markers: made.vertex_markers,

@@ -207,7 +207,9 @@ impl Session {
     pub fn with_segments(graph: &Pslg, mesher: &Mesher) -> Result<Self, SessionError> {
         let mesher = super::compact(mesher)?;
         let options = mesher.pslg_options(Domain::Inside);
-        if options.max_area.is_some() || graph.regions.iter().any(|r| r.max_area.is_some()) {
+        let mut areas =
+            graph.regions.iter().map(|r| r.max_area).chain(graph.polygons.iter().map(|p| p.max_area));
+        if options.max_area.is_some() || areas.any(|area| area.is_some()) {
             return Err(SessionError::NotForSessions { option: "a limit on areas" });
         }
         if options.method == SegmentMethod::Paper {

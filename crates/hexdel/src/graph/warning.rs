@@ -1,0 +1,100 @@
+//! What a graph says that a mesh makes no use of, or could be meant otherwise.
+
+use hexdel_geom::{DVec2, Pslg};
+use hexdel_pslg::{Cover, Repair, RepairReport, StrayRing, UnusedSeed};
+
+/// Something about a graph that its author should know of. The mesh is what was asked
+/// for all the same.
+///
+/// Segments, holes, regions and polygons are counted as given.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Polygons of different attributes or largest areas cover the same part of the
+    /// plane; the later one's are taken there.
+    Overlap {
+        /// Their indices.
+        polygons: [u32; 2],
+        /// Their attributes.
+        attributes: [f64; 2],
+        /// A point in the largest part.
+        at: DVec2,
+        /// The area of all parts, square input units.
+        area: f64,
+    },
+    /// Borders of polygons cross or run along others, or lines, without common points, and
+    /// were divided there; [`repairs`](crate::PslgTriangulation::repairs) has all places.
+    DividedBorders {
+        /// The first place.
+        at: DVec2,
+        /// How many places there are.
+        places: usize,
+    },
+    /// A hole of a polygon lies in another one, or not in the polygon.
+    StrayRing(StrayRing),
+    /// A hole or region changes nothing.
+    UnusedSeed(UnusedSeed),
+}
+
+impl Warning {
+    /// Where it is.
+    pub fn at(&self) -> DVec2 {
+        match self {
+            Self::Overlap { at, .. } | Self::DividedBorders { at, .. } => *at,
+            Self::StrayRing(ring) => ring.at,
+            Self::UnusedSeed(seed) => seed.at,
+        }
+    }
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Overlap { polygons: [a, b], attributes, at, area } => {
+                let [first, last] = attributes;
+                write!(
+                    f,
+                    "polygons {a} (attribute {first}) and {b} (attribute {last}) overlap at ({}, {}), ",
+                    at.x, at.y
+                )?;
+                write!(f, "area {area}: {last} is taken there")
+            }
+            Self::DividedBorders { at, places } => {
+                write!(f, "borders of polygons were divided at ({}, {}) ", at.x, at.y)?;
+                let more = places - 1;
+                write!(f, "and {more} other places, where they cross or run along each other")
+            }
+            Self::StrayRing(StrayRing { polygon, ring, other, at }) => {
+                write!(f, "ring {ring} of polygon {polygon} takes nothing away at ({}, {}): ", at.x, at.y)?;
+                match other {
+                    Some(other) => write!(f, "it lies in ring {other}, which is a hole already"),
+                    None => write!(f, "it lies outside of the polygon"),
+                }
+            }
+            Self::UnusedSeed(seed) => write!(f, "{seed}"),
+        }
+    }
+}
+
+/// Where borders were divided without being asked for.
+pub(super) fn of_division(report: &RepairReport) -> Option<Warning> {
+    let place = |done: &Repair| match *done {
+        Repair::MergedSegments { ends, .. } => Some(ends[0]),
+        Repair::DividedAtCrossing { at, .. } => Some(at),
+        _ => None,
+    };
+    let mut places = report.repairs.iter().filter_map(place);
+    let at = places.next()?;
+    Some(Warning::DividedBorders { at, places: 1 + places.count() })
+}
+
+/// The overlaps, which an option makes errors, and the stray rings.
+pub(super) fn of_cover(cover: &Cover, given: &Pslg) -> Vec<Warning> {
+    let overlaps = cover.overlaps.iter().map(|overlap| Warning::Overlap {
+        polygons: overlap.polygons,
+        attributes: overlap.polygons.map(|p| given.polygons[p as usize].attribute),
+        at: overlap.at,
+        area: overlap.area,
+    });
+    overlaps.chain(cover.stray.iter().copied().map(Warning::StrayRing)).collect()
+}
