@@ -64,6 +64,11 @@ fn of_meshing(error: &hexdel::Error) -> Option<String> {
         E::Pslg(PslgError::NothingEnclosed { .. }) => {
             "--domain hull meshes the convex hull (hexdel triangle: -c); --repair=TOL closes gaps of up to TOL".to_owned()
         }
+        E::Overlap { .. } => "--overlaps later takes the attribute of the later polygon".to_owned(),
+        E::Pslg(error) => {
+            let tolerance = error.repair_within()?;
+            format!("--repair={:e} makes them one", above(tolerance))
+        }
         E::NotForGraphs { option } if option.contains("radius") => {
             "--domain hexagon, hull or box says what to mesh around a graph".to_owned()
         }

@@ -295,6 +295,72 @@ fn listed(loose: &[LooseEnd], count: usize) -> String {
     format!("; segments end loose at {}{more}", ends.join(", "))
 }
 
+/// Two parts of the input that are near each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// The two parts.
+    pub items: [Feature; 2],
+    /// How far apart they are; repair within this distance makes them one.
+    pub distance: f64,
+}
+
+impl PslgError {
+    /// Too many triangles, for whatever reason.
+    pub(crate) fn too_many(limit: usize, at: DVec2) -> Self {
+        Self::TooMany { limit, at, near: None }
+    }
+
+    /// A tolerance for `repair` that makes one of the two parts of the input that keep it from
+    /// being meshed, if that is why.
+    pub fn repair_within(&self) -> Option<f64> {
+        match self {
+            // What coordinates do not resolve is as good as one.
+            Self::TooClose { distance, spacing, .. } => Some(distance.unwrap_or(0.0).max(*spacing)),
+            Self::TooMany { near, .. } => near.map(|near| near.distance),
+            _ => None,
+        }
+    }
+
+    /// With the distance of what is too close in it.
+    pub(crate) fn measured(self, pslg: &Pslg) -> Self {
+        match self {
+            Self::TooClose { items, at, distance: None, spacing } => {
+                Self::TooClose { items, at, distance: between(items, pslg), spacing }
+            }
+            other => other,
+        }
+    }
+}
+
+/// How far two parts of a graph are from each other, if they do not meet.
+pub(crate) fn between(items: [Feature; 2], pslg: &Pslg) -> Option<f64> {
+    let ends = |item| match item {
+        Feature::Point(i) => Some([pslg.points[i]; 2]),
+        Feature::Segment(i) => Some(pslg.segments[i].map(|p| pslg.points[p as usize])),
+        Feature::Hull | Feature::Crossing => None,
+    };
+    let [first, second] = [ends(items[0])?, ends(items[1])?];
+    let [a, b] = nearest_places(first, second);
+    let off = |p: DVec2, [c, d]: [DVec2; 2]| orient2d(c, d, p).abs() / c.distance(d);
+    let distance = match a.distance(b) {
+        // Of what is nearer than the last place predicates tell the distance.
+        0.0 if first.contains(&a) && second[0] != second[1] => off(a, second),
+        0.0 if second.contains(&b) && first[0] != first[1] => off(b, first),
+        distance => distance,
+    };
+    Some(distance).filter(|&distance| distance > 0.0)
+}
+
+fn apart(distance: Option<f64>) -> String {
+    distance.map_or_else(String::new, |distance| format!("they are {distance:e} apart, and "))
+}
+
+fn narrows(near: Option<&Near>) -> String {
+    near.map_or_else(String::new, |Near { items: [a, b], distance }| {
+        format!(", where {a} and {b} are {distance:e} apart")
+    })
+}
+
 /// A point or segment of the input, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feature {

@@ -32,21 +32,26 @@ pub fn drop_repeated(pslg: &Pslg) -> Option<(Pslg, RepairReport)> {
     let mut report = RepairReport::default();
     let mut kept: Vec<usize> = Vec::with_capacity(pslg.segments.len());
     let mut markers = pslg.segment_markers.clone();
+    // By segment given: which it is now.
+    let mut number: Vec<Option<u32>> = Vec::with_capacity(pslg.segments.len());
     let mut first: FxHashMap<[u32; 2], usize> = FxHashMap::default();
     for (i, ends) in pslg.segments.iter().enumerate() {
         let [a, b] = ends.map(site);
         if a == b {
             let at = pslg.points[ends[0] as usize];
             report.repairs.push(Repair::DroppedSegment { segment: i as u32, at });
+            number.push(None);
             continue;
         }
         match first.entry([a.min(b), a.max(b)]) {
             Entry::Vacant(entry) => {
+                number.push(Some(kept.len() as u32));
                 entry.insert(kept.len());
                 kept.push(i);
                 report.sources.push(vec![i as u32]);
             }
             Entry::Occupied(entry) => {
+                number.push(Some(*entry.get() as u32));
                 let same = kept[*entry.get()];
                 let ends = ends.map(|p| pslg.points[p as usize]);
                 report.repairs.push(Repair::MergedSegments { segments: [same as u32, i as u32], ends });
@@ -64,6 +69,9 @@ pub fn drop_repeated(pslg: &Pslg) -> Option<(Pslg, RepairReport)> {
     report.complete = true;
     let mut graph = pslg.clone();
     graph.segments = kept.iter().map(|&i| pslg.segments[i]).collect();
+    for ring in graph.polygons.iter_mut().flat_map(|polygon| &mut polygon.rings) {
+        *ring = ring.iter().filter_map(|&segment| number[segment as usize]).collect();
+    }
     graph.segment_markers = kept.iter().filter_map(|&i| markers.get(i).copied()).collect();
     Some((graph, report))
 }
