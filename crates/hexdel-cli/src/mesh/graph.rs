@@ -6,7 +6,9 @@ use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::triangle::Numbered;
 use hexdel::pslg::violations;
-use hexdel::{AngleBounds, Domain, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
+use hexdel::{
+    AngleBounds, Domain, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod, Warning,
+};
 use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile, Promised, PromisedDomain};
 use std::fmt::{Display, Write as _};
 
@@ -93,11 +95,14 @@ impl Finished<'_> {
         if !self.quiet {
             outputs.tell(&summary(made, &report, self.input))?;
         }
-        for warning in made.warnings.iter().take(SHOWN) {
+        // Divided borders are among the repairs.
+        let told = |w: &&Warning| !matches!(w, Warning::DividedBorders { .. });
+        let warnings: Vec<&Warning> = made.warnings.iter().filter(told).collect();
+        for warning in warnings.iter().take(SHOWN) {
             warn(&format!("{}: {warning}", self.file));
         }
-        if made.warnings.len() > SHOWN {
-            warn(&format!("{}: {} more, see --report", self.file, made.warnings.len() - SHOWN));
+        if warnings.len() > SHOWN {
+            warn(&format!("{}: {} more, see --report", self.file, warnings.len() - SHOWN));
         }
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));

@@ -55,7 +55,10 @@ impl Repaired {
                 Repair::DividedAtCrossing { segments, at } if !owners.differ(segments) => {
                     return Err(ValidateError::Crossing { segments: segments.map(|s| s as usize), at }.into());
                 }
-                Repair::MergedSegments { segments, ends } if !owners.differ(segments) => {
+                // Lines that are there twice are dropped wherever they are.
+                Repair::MergedSegments { segments, ends }
+                    if !owners.differ(segments) && !owners.of_segment(segments[0]).is_empty() =>
+                {
                     return Err(
                         ValidateError::Overlap { segments: segments.map(|s| s as usize), ends }.into()
                     );
