@@ -119,7 +119,8 @@ fn tight_bounds_are_reached_or_the_best_mesh_is_handed_over() {
             }
             Err(Error::Unreached { mesh, certificate }) => {
                 assert!(!possible && certificate.out_of_bounds > 0);
-                let options = CertifyOptions { bounds, inputs: Some(&points), ..CertifyOptions::default() };
+                let (inputs, min_edge) = (Some(points.as_slice()), certificate.min_edge_bound);
+                let options = CertifyOptions { bounds, inputs, min_edge, ..CertifyOptions::default() };
                 assert_eq!(*certificate, certify(&mesh, &options));
             }
             Err(error) => panic!("{error}"),
