@@ -7,7 +7,7 @@ mod common;
 
 use hexdel::spade::{SpadeError, constrained_of, delaunay_of, edges_of, graph_of, mesh_of};
 use hexdel::{DVec2, Mesher, Method, TriMesh, VertexId};
-use spade::Triangulation;
+
 use std::collections::BTreeSet;
 
 /// Triangles, each from its least corner on.
