@@ -3,6 +3,7 @@
 //! `HEXDEL_POLYGON_SETS=10000` sets how many sets of polygons are tried.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+#![allow(clippy::print_stderr, reason = "the count is to be seen with --nocapture")]
 
 mod support;
 
@@ -50,7 +51,7 @@ fn attributes_follow_faces() {
             meshed += u64::from(meshes_as(seed, &seeded, &expected));
         }
     }
-    println!("{sets} sets, {overlapping} with overlaps; {meshed} meshed");
+    eprintln!("{sets} sets, {overlapping} with overlaps; {meshed} meshed");
     assert!(overlapping > sets / 4 && meshed > sets / MESHED / 2);
 }
 

@@ -6,9 +6,7 @@ use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::triangle::Numbered;
 use hexdel::pslg::violations;
-use hexdel::{
-    AngleBounds, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod, Warning,
-};
+use hexdel::{AngleBounds, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod, Warning};
 use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile};
 use std::fmt::{Display, Write as _};
 
