@@ -22,9 +22,7 @@ fn of_reading(error: &ReadError) -> Option<String> {
         }
         ReadError::Columns { .. } | ReadError::NoColumn { .. } => format!("--columns X,Y, {by_number}"),
         ReadError::Several { errors, .. } => return errors.first().and_then(of_reading),
-        ReadError::Malformed { file, expected, .. }
-            if is_table(file) && (expected.contains("coordinate") || expected.contains("the header has")) =>
-        {
+        ReadError::Malformed { file, expected, found, .. } if is_table(file) && is_other(expected, found) => {
             format!("--columns X,Y, {by_number}: --columns 2,3 takes the second and the third")
         }
         ReadError::UnknownExtension { file, .. } => format!(
@@ -36,6 +34,12 @@ fn of_reading(error: &ReadError) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+/// Whether the field of a table is likely to be one of another column.
+fn is_other(expected: &str, found: &str) -> bool {
+    let is_name = expected.contains("coordinate") && found.contains(char::is_alphabetic);
+    is_name && found.starts_with('"') || expected.contains("the header has")
 }
 
 fn is_table(file: &str) -> bool {

@@ -22,12 +22,23 @@ const HULL: u32 = NONE - 1;
 
 /// The pieces of the input and, where they do not enclose the hull, hull edges.
 pub(crate) fn with_hull(input: &Validated) -> Vec<Piece> {
-    let sites = input.points.sites();
-    let mut plane = input.plane.clone();
     let mut pieces = input.pieces.clone();
-    let hull = convex_hull(sites);
-    if hull.len() < 3 {
+    let Some((plane, ends)) = plane_with_hull(input) else {
         return pieces;
+    };
+    for edge in ends {
+        peel(&plane, input, edge, &mut pieces);
+    }
+    pieces
+}
+
+/// The plane of the input with the edges of its convex hull in it, and those, from site to
+/// site; none if there are fewer than three.
+pub(crate) fn plane_with_hull(input: &Validated) -> Option<(Net, Vec<[u32; 2]>)> {
+    let mut plane = input.plane.clone();
+    let hull = convex_hull(input.points.sites());
+    if hull.len() < 3 {
+        return None;
     }
     let ends: Vec<[u32; 2]> = (0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()]]).collect();
     // Hull edges cross nothing: all of the input is on one side.
@@ -45,10 +56,7 @@ pub(crate) fn with_hull(input: &Validated) -> Vec<Piece> {
             plane.recover(v, goal, crossed, HULL);
         }
     }
-    for edge in ends {
-        peel(&plane, input, edge, &mut pieces);
-    }
-    pieces
+    Some((plane, ends))
 }
 
 /// Adds the hull edge, or what is behind it if that is flat.
