@@ -76,17 +76,6 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// The tolerance of repair that would help.
-    fn repair_within(&self) -> Option<f64> {
-        match self {
-            Self::Mesh { source, .. } => match &**source {
-                hexdel::Error::Pslg(error) => error.repair_within(),
-                _ => None,
-            },
-            _ => None,
-        }
-    }
-
     fn code(&self) -> u8 {
         use hexdel::Error as E;
         match self {
@@ -114,10 +103,6 @@ pub(crate) fn finish(outcome: Outcome) -> ExitCode {
             }
             if let Some(help) = remedy::of(&failure).or_else(|| failure.help().map(|help| help.to_string())) {
                 complain("help", &help);
-            }
-            if let Some(tolerance) = failure.repair_within() {
-                // Rounded to one digit it is still enough.
-                complain("help", &format!("`--repair={:.0e}` makes them one", 1.5 * tolerance));
             }
             ExitCode::from(failure.code())
         }

@@ -68,6 +68,10 @@ fn of_meshing(error: &hexdel::Error) -> Option<String> {
         E::Pslg(PslgError::NothingEnclosed { .. }) => {
             "--domain hull meshes the convex hull (hexdel triangle: -c); --repair=TOL closes gaps of up to TOL".to_owned()
         }
+        E::Pslg(error) => {
+            // Rounded to one digit it is still enough.
+            format!("--repair={:.0e} makes them one", 1.5 * error.repair_within()?)
+        }
         E::NotForGraphs { option } if option.contains("radius") => {
             "--domain hexagon, hull or box says what to mesh around a graph".to_owned()
         }

@@ -25,6 +25,18 @@ fn points_too_close_are_joined_by_the_tolerance_that_is_named() {
     }
 }
 
+/// Segments as well: a vertex of one so close to another that nothing fits between them.
+#[test]
+fn segments_too_close_are_joined_by_the_tolerance_that_is_named() {
+    let bench = Bench::new();
+    let input = fixture("graphs/needle.poly");
+    let run = bench.run(&format!("mesh {input} -o m.ele"));
+    run.refused("are too close at");
+    let repair = named(&run, "--repair=");
+    assert_eq!(run.err.lines().filter(|line| line.starts_with("help: ")).count(), 1, "{}", run.err);
+    bench.run(&format!("mesh {input} -q -o m.ele {repair}")).fine();
+}
+
 #[test]
 fn radii_that_do_not_fit_name_one_that_does() {
     let bench = Bench::new();
