@@ -141,21 +141,93 @@ pub fn is_on([a, b]: [DVec2; 2], p: DVec2) -> bool {
 /// ```
 pub fn covered(mesh: &TriMesh, points: &[DVec2]) -> Vec<bool> {
     let mut covered = vec![false; points.len()];
+    each_in(mesh, points, |i, _| covered[i] = true);
+    covered
+}
+
+/// Calls with each point and each triangle that it lies in or on the rim of, the
+/// triangles in order.
+fn each_in(mesh: &TriMesh, points: &[DVec2], mut call: impl FnMut(usize, u32)) {
     if points.is_empty() {
-        return covered;
+        return;
     }
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&i, &j| points[i].x.total_cmp(&points[j].x));
-    for corners in &mesh.triangles {
+    for (t, corners) in (0..).zip(&mesh.triangles) {
         let [Some(&a), Some(&b), Some(&c)] = corners.map(|v| mesh.vertices.get(v.index())) else { continue };
         let (west, east) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
         let first = order.partition_point(|&i| points[i].x < west);
         for &i in order[first..].iter().take_while(|&&i| points[i].x <= east) {
             let p = points[i];
-            covered[i] |= [(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| orient2d(a, b, p) >= 0.0);
+            if [(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| orient2d(a, b, p) >= 0.0) {
+                call(i, t);
+            }
         }
     }
-    covered
+}
+
+/// For each triangle the first of the seeds that lies in the same face of the
+/// segments: triangles are in one face if edges lead from one to the other that are
+/// none of `edges`, those of segments as [`check_segments`] finds them.
+///
+/// A seed on the rim of triangles counts for the first of them.
+///
+/// # Complexity
+///
+/// `O(n log n)` in the mesh, and the seeds in the vertical strips that triangles
+/// span.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::segments::faces;
+/// use hexdel_geom::{DVec2, TriMesh, VertexId};
+///
+/// let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+/// let mesh = TriMesh {
+///     vertices: square.to_vec(),
+///     triangles: vec![[0, 1, 2].map(VertexId::new), [0, 2, 3].map(VertexId::new)],
+/// };
+/// let diagonal = [[0, 2].map(VertexId::new)];
+/// let seed = [DVec2::new(0.2, 0.7)];
+/// assert_eq!(faces(&mesh, &diagonal, &seed), [None, Some(0)]);
+/// assert_eq!(faces(&mesh, &[], &seed), [Some(0), Some(0)]);
+/// ```
+pub fn faces(mesh: &TriMesh, edges: &[[VertexId; 2]], seeds: &[DVec2]) -> Vec<Option<u32>> {
+    let mut face = vec![None; mesh.triangles.len()];
+    let starts = holders(mesh, seeds);
+    if starts.iter().all(Option::is_none) {
+        return face;
+    }
+    let incidence = Incidence::new(mesh);
+    let mut bound: Vec<[VertexId; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+    bound.sort_unstable();
+    for (seed, start) in (0..).zip(starts) {
+        let mut stack: Vec<u32> = start.into_iter().collect();
+        while let Some(t) = stack.pop() {
+            if face[t as usize].is_some() {
+                continue;
+            }
+            face[t as usize] = Some(seed);
+            let [a, b, c] = mesh.triangles[t as usize];
+            for [p, q] in [[a, b], [b, c], [c, a]] {
+                if bound.binary_search(&[p.min(q), p.max(q)]).is_err() {
+                    let beyond = incidence.around(p.index()).iter();
+                    stack.extend(beyond.filter(|&&s| s != t && mesh.triangles[s as usize].contains(&q)));
+                }
+            }
+        }
+    }
+    face
+}
+
+/// For each point the first triangle that it lies in, or on the rim of.
+fn holders(mesh: &TriMesh, points: &[DVec2]) -> Vec<Option<u32>> {
+    let mut holders = vec![None; points.len()];
+    each_in(mesh, points, |i, t| {
+        holders[i].get_or_insert(t);
+    });
+    holders
 }
 
 struct Walker<'a> {
@@ -299,6 +371,25 @@ mod tests {
         assert_eq!(check_segments(&bow, &points, &[[0, 2]]).missing.len(), 1);
     }
 
+    /// A square cut by a diagonal, and another beside it: faces end at the edges named
+    /// and at the first seed that came.
+    #[test]
+    fn faces_end_at_edges_and_the_first_seed_counts() {
+        let plate = mesh(
+            &[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 1.0)],
+            &[[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]],
+        );
+        let seeds = [DVec2::new(1.7, 0.1), DVec2::new(0.2, 0.9), DVec2::new(1.1, 0.9), DVec2::splat(7.0)];
+        let edge = |a, b| [a, b].map(VertexId::new);
+        assert_eq!(faces(&plate, &[edge(2, 1)], &seeds), [Some(1), Some(1), Some(0), Some(0)]);
+        assert_eq!(faces(&plate, &[edge(1, 2), edge(2, 0)], &seeds), [None, Some(1), Some(0), Some(0)]);
+        assert_eq!(faces(&plate, &[], &seeds), [Some(0); 4]);
+        assert_eq!(faces(&plate, &[], &seeds[3..]), [None; 4]);
+        // On the edge between two: the first triangle of them.
+        let on_edge = [DVec2::new(1.0, 0.5)];
+        assert_eq!(faces(&plate, &[edge(1, 2), edge(0, 2)], &on_edge), [Some(0), None, None, None]);
+    }
+
     #[test]
     fn broken_meshes_are_no_reason_to_panic() {
         let broken = mesh(&[(0.0, 0.0), (f64::NAN, 0.0)], &[[0, 1, 7], [0, 0, 1]]);
@@ -306,5 +397,6 @@ mod tests {
         assert_eq!((found.segments, found.kept, found.missing.len()), (2, 0, 2));
         assert_eq!(covered(&broken, &[DVec2::ZERO, DVec2::splat(f64::NAN)]), [false, false]);
         assert_eq!(check_segments(&TriMesh::default(), &[], &[]).segments, 0);
+        assert_eq!(faces(&broken, &[], &[DVec2::ZERO]), [None, None]);
     }
 }

@@ -42,6 +42,7 @@
 
 mod inputs;
 mod local;
+mod places;
 mod topology;
 pub(crate) mod triangles;
 
@@ -53,6 +54,9 @@ use crate::mesh::{TriMesh, TriangleId, VertexId};
 use crate::scale::{max_abs, scale_to};
 
 pub use local::{keeps_bounds, keeps_bounds_at};
+pub use places::{
+    BrokenPromise, FAR_EDGES, PlaceCheck, Promise, Promises, SIZE_TOLERANCE, check_promises, features,
+};
 
 /// An angle within this many degrees of a bound is within the bound.
 ///

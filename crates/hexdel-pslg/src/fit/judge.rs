@@ -1,7 +1,7 @@
 //! What is wrong with a triangle.
 
 use crate::net::{Kind, NONE, Net};
-use hexdel_geom::{AngleBounds, DVec2, quality};
+use hexdel_geom::{AngleBounds, DVec2, orient2d, quality};
 use rustc_hash::FxHashMap;
 
 /// An angle past its bound by this many degrees is still within: the
@@ -163,12 +163,21 @@ pub(crate) fn penalty(corners: [DVec2; 3], limits: [Limits; 3]) -> f64 {
 }
 
 /// The same with the angles known.
+///
+/// A triangle that is flat or turned over keeps no bounds. Its angles do not tell:
+/// with corners in one place all are 0, which is no angle below a bound of 0.
 pub(crate) fn penalty_of(angles: [f64; 3], limits: [Limits; 3], corners: [DVec2; 3]) -> f64 {
     let tolerance = TOLERANCE_DEG + quality::rounding_deg(corners);
-    (0..3)
+    let past_bounds: f64 = (0..3)
         .map(|i| {
             let past = (limits[i][0] - angles[i]).max(angles[i] - limits[i][1]);
             if past > tolerance { past * past } else { 0.0 }
         })
-        .sum()
+        .sum();
+    let [a, b, c] = corners;
+    if orient2d(a, b, c) > 0.0 { past_bounds } else { past_bounds.max(FLAT) }
 }
+
+/// The least penalty of a triangle that is not counter-clockwise: that of an angle past
+/// its bound by two right ones.
+const FLAT: f64 = 180.0 * 180.0;
