@@ -2,7 +2,8 @@
 
 mod support;
 
-use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Region, Unwatched};
+use hexdel_geom::certificate::{Promises, check_promises, features};
+use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Region, Unwatched, check_segments};
 use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, Reason, mesh, repair, validate};
 use std::sync::atomic::{AtomicBool, Ordering};
 use support::{append, chain};
@@ -38,15 +39,32 @@ fn families_keep_their_bounds() {
     }
 }
 
+/// Points close together on a side of the hull. A lower bound of 0 asks for nothing of
+/// thin triangles, but vertices between the points still lie between them.
+#[test]
+fn without_a_lower_bound_no_vertices_coincide() {
+    let points = [(0, 0), (100, 0), (45, 0), (52, 0), (53, 0), (99, -92), (85, -51)];
+    let pslg = Pslg::from_points(points.map(|(x, y)| DVec2::new(f64::from(x), f64::from(y))).to_vec());
+    let mut options = Options::new().extent(Extent::Hull).near(AngleBounds::new(0.0, 90.0).unwrap());
+    options.far = options.near;
+    let made = made(&pslg, &options);
+    assert!(made.holds(), "{:?}", made.certificate.violations);
+    assert!(made.certificate.min_angle_deg > 0.0);
+}
+
 /// Two edges from points and segments the bounds of the plain mesh hold, seen
 /// from outside: by the edges of the result alone.
 #[test]
 fn two_rings_away_the_plain_bounds_hold() {
     let pslg = support::family("letter R", 7);
     let far = |options: Options| {
-        let (far, out) = support::far_triangles(&made(&pslg, &options));
-        assert_eq!(out, 0, "{options:?}");
-        far
+        let made = made(&pslg, &options);
+        let segments = check_segments(&made.mesh, &pslg.points, &pslg.segments);
+        let features = features(&made.mesh, &pslg.points, &segments.edges, false);
+        let far = Some((AngleBounds::EXTENDED, &features[..]));
+        let found = check_promises(&made.mesh, &Promises { far, ..Promises::default() });
+        assert!(found.holds(), "{options:?}");
+        found.far
     };
     assert!(far(Options::new().compact(None)) > 200);
     assert!(far(Options::new().max_area(0.01)) > 100);
