@@ -66,6 +66,32 @@ impl AngleBounds {
         }
     }
 
+    /// Above this smallest angle, 360 / 7 degrees, no inner vertex has room for seven
+    /// triangles.
+    pub const MOST_GRADED_MIN_DEG: f64 = 360.0 / 7.0;
+
+    /// Below this largest angle no inner vertex is surrounded by five triangles.
+    pub const LEAST_GRADED_MAX_DEG: f64 = 72.0;
+
+    /// Whether a mesh within the bounds can be finer in one place than in another.
+    ///
+    /// The sum of `6 - d` over inner vertices, of `3 - t` over those on the boundary, of degree `d` and
+    /// with `t` triangles, is 6 for every disk. Where no vertex has seven triangles,
+    /// or none five, all terms have one sign, and in a hexagon
+    /// they are all 0 but for the six corners: the mesh is one piece of the regular lattice,
+    /// bent a little.
+    ///
+    /// ```
+    /// use hexdel_geom::AngleBounds;
+    /// assert!(AngleBounds::new(51.0, 90.0)?.allow_grading());
+    /// assert!(!AngleBounds::new(52.0, 90.0)?.allow_grading());
+    /// assert!(!AngleBounds::new(40.0, 71.0)?.allow_grading());
+    /// # Ok::<(), hexdel_geom::BoundsError>(())
+    /// ```
+    pub fn allow_grading(self) -> bool {
+        self.min_deg <= Self::MOST_GRADED_MIN_DEG && self.max_deg >= Self::LEAST_GRADED_MAX_DEG
+    }
+
     /// The smallest angle allowed, degrees.
     pub const fn min_deg(self) -> f64 {
         self.min_deg

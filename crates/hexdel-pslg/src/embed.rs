@@ -13,7 +13,7 @@ use crate::geometry::distance_sq;
 use crate::net::{Kind, NONE, Net};
 use crate::validate::{Piece, spatial_order};
 use hexdel_geom::DVec2;
-use hexdel_geom::monitor::{Monitor, check};
+use hexdel_geom::monitor::{Cancelled, Monitor, check};
 
 /// A free vertex must keep this many local sizes away from points and
 /// segments: between half of an equilateral triangle's height, where deleting
@@ -28,16 +28,13 @@ pub(crate) fn embed(mut net: Net, scene: &Scene, monitor: &dyn Monitor) -> Resul
     net.soft = Some(scene.soft);
     net.lines = pieces.iter().map(|p| p.ends.map(|s| sites[s as usize])).collect();
     let mut embedder = Embedder { net, field, sizes: Vec::new(), chains: Vec::new(), links: Vec::new() };
-    let vertex_of_site = embedder.insert_sites(sites);
-    check(monitor)?;
-    embedder.divide(scene, &vertex_of_site);
-    check(monitor)?;
+    let vertex_of_site = embedder.insert_sites(sites, monitor)?;
+    embedder.divide(scene, &vertex_of_site, monitor)?;
     for fan in &scene.fans {
         fans::empty(&mut embedder.net, vertex_of_site[fan.site as usize], fan.radius);
     }
-    embedder.clear();
-    check(monitor)?;
-    embedder.connect(pieces)?;
+    embedder.clear(monitor)?;
+    embedder.connect(pieces, monitor)?;
     Ok(embedder.net)
 }
 
@@ -53,11 +50,12 @@ struct Embedder {
 }
 
 impl Embedder {
-    fn insert_sites(&mut self, sites: &[DVec2]) -> Vec<u32> {
+    fn insert_sites(&mut self, sites: &[DVec2], monitor: &dyn Monitor) -> Result<Vec<u32>, Cancelled> {
         let mut vertex_of_site = vec![NONE; sites.len()];
         let (mut hint, mut place) = (NONE, NONE);
         self.sizes = (0..self.net.vertex_count()).map(|v| self.field.at_vertex(v)).collect();
-        for site in spatial_order(sites) {
+        for (done, site) in spatial_order(sites).into_iter().enumerate() {
+            ask(monitor, done)?;
             let p = sites[site as usize];
             let v = self.net.insert(p, Kind::Site(site), hint).expect("the domain holds all sites");
             let size;
@@ -66,7 +64,7 @@ impl Embedder {
             hint = self.net.some_triangle(v);
             vertex_of_site[site as usize] = v;
         }
-        vertex_of_site
+        Ok(vertex_of_site)
     }
 
     fn note_size(&mut self, v: u32, size: f64) {
@@ -77,7 +75,12 @@ impl Embedder {
     }
 
     /// Inserts vertices along all pieces.
-    fn divide(&mut self, scene: &Scene, vertex_of_site: &[u32]) {
+    fn divide(
+        &mut self,
+        scene: &Scene,
+        vertex_of_site: &[u32],
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
         let mut place = NONE;
         for (i, piece) in scene.pieces.iter().enumerate() {
             let [a, b] = piece.ends.map(|s| vertex_of_site[s as usize]);
@@ -86,12 +89,15 @@ impl Embedder {
                 continue;
             }
             let [from, to] = piece.ends.map(|s| scene.sites[s as usize]);
-            let profile = self.field.profile(from, to, place);
+            // Every walk begins where the last one ended: along the piece, from its start.
+            let mut near = self.field.at(from, place).1;
+            let profile = self.field.profile(from, to, near);
             place = profile.hint;
             let radii = [a, b].map(|v| self.sizes[v as usize]);
             let mut chain = vec![a];
             let mut hint = self.net.some_triangle(a);
-            for arc in divisions(&profile, radii) {
+            for (done, arc) in divisions(&profile, radii).into_iter().enumerate() {
+                ask(monitor, done)?;
                 let t = arc / profile.length();
                 let kind = Kind::Along { piece: i as u32, t };
                 let at = self.net.along(i as u32, t);
@@ -100,7 +106,8 @@ impl Embedder {
                 if self.net.vertex(v).kind != kind {
                     continue;
                 }
-                let size = self.field.at(at, place).0;
+                let size;
+                (size, near) = self.field.at(at, near);
                 self.note_size(v, size);
                 hint = self.net.some_triangle(v);
                 chain.push(v);
@@ -113,14 +120,18 @@ impl Embedder {
             self.links[pair[0] as usize].push(pair[1]);
             self.links[pair[1] as usize].push(pair[0]);
         }
+        check(monitor)
     }
 
     /// Takes out free vertices that are too close to points or segments.
-    fn clear(&mut self) {
+    fn clear(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
         let bound = |v: &u32| matches!(self.net.vertex(*v).kind, Kind::Site(_) | Kind::Along { .. });
         let mut stack: Vec<u32> = (0..self.net.vertex_count()).rev().filter(bound).collect();
         let (mut star, mut again) = (Vec::new(), Vec::new());
+        let mut done = 0;
         while let Some(s) = stack.pop() {
+            ask(monitor, done)?;
+            done += 1;
             self.net.star(s, &mut star);
             let near = star.iter().flat_map(|&t| self.net.tri(t).v).find(|&v| self.is_too_close(v, s));
             let Some(v) = near else { continue };
@@ -134,6 +145,7 @@ impl Embedder {
                 stack.extend(&again);
             }
         }
+        check(monitor)
     }
 
     fn is_too_close(&self, v: u32, s: u32) -> bool {
@@ -147,8 +159,9 @@ impl Embedder {
     }
 
     /// Makes all links edges, and marks them.
-    fn connect(&mut self, pieces: &[Piece]) -> Result<(), PslgError> {
+    fn connect(&mut self, pieces: &[Piece], monitor: &dyn Monitor) -> Result<(), PslgError> {
         for (i, piece) in pieces.iter().enumerate() {
+            ask(monitor, i)?;
             let chain = std::mem::take(&mut self.chains[i]);
             for pair in chain.windows(2) {
                 let linked = self.net.link(pair[0], pair[1], i as u32);
@@ -157,6 +170,14 @@ impl Embedder {
         }
         Ok(())
     }
+}
+
+/// Items between two questions whether to stop.
+const BETWEEN_QUESTIONS: usize = 1024;
+
+/// Asks the monitor now and then.
+pub(crate) fn ask(monitor: &dyn Monitor, done: usize) -> Result<(), Cancelled> {
+    if done.is_multiple_of(BETWEEN_QUESTIONS) { check(monitor) } else { Ok(()) }
 }
 
 /// The arc lengths at which a segment is divided: at the radii of its ends, and

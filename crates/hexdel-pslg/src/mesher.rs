@@ -10,7 +10,7 @@ use crate::fit::optimise;
 use crate::hull::with_hull;
 use crate::limits::Limits;
 use crate::net::Net;
-use crate::options::{Deadline, Extent, Options, SegmentMethod};
+use crate::options::{Deadline, Extent, Options, SegmentMethod, Timed};
 use crate::output::{self, Parts};
 use crate::paper;
 use crate::result::PslgMesh;
@@ -19,9 +19,10 @@ use crate::sizing::{Demand, Features, lattice_for, refine};
 use crate::validate::Validated;
 use hexdel_classify::{Domain, DualError, Relocation, extract};
 use hexdel_geom::monitor::check;
-use hexdel_geom::{AngleBounds, DVec2, Monitor, smallest_enclosing_circle};
+use hexdel_geom::{AngleBounds, DVec2, Monitor, TriMesh, VertexId, smallest_enclosing_circle};
 use hexdel_grid::{Grid, Lattice};
 use hexdel_optimize::{Effort, Sizing};
+use std::f64::consts::FRAC_PI_3;
 
 /// Where a triangle has failed, hexagons are made this much smaller than its
 /// edges; levels being powers of two, that is one level.
@@ -29,6 +30,10 @@ const REFINEMENT: f64 = 0.6;
 
 /// Edge lengths around a failed triangle within which that happens.
 const REFINED_RADIUS: f64 = 1.5;
+
+/// Circumradius of the hexagon around an input that is not refined, in radii of the
+/// input: its inscribed circle has some room.
+const ROUGH_RADII: f64 = 1.25;
 
 /// Meshes a planar straight-line graph.
 ///
@@ -115,17 +120,30 @@ fn run(
     mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
     let mut wishes = Wishes { demands: Vec::new(), lattice: mesher.lattice };
     let (mut retries, mut vain) = (0, 0);
-    let mut best = mesher.made(&wishes, monitor)?;
+    let first = Timed::new(monitor, &deadline, false);
+    let mut best = match mesher.attempt(&wishes, &first) {
+        Ok(net) => {
+            deadline.note_first_mesh();
+            mesher.improved(net, monitor)?
+        }
+        Err(PslgError::Cancelled(_)) if first.has_stopped() => {
+            let net = mesher.rough(monitor)?;
+            return mesher.finished(net, 0, monitor);
+        }
+        Err(error) => return Err(error),
+    };
     let mut left = mesher.left(&best);
     while !left.elsewhere.is_empty() && retries < options.retries && !deadline.is_over() {
         let ringed = mesher.note(&best, &left.elsewhere, &mut wishes);
         if ringed > FEW_BESIDE_RINGS {
             break;
         }
-        let net = match mesher.made(&wishes, monitor) {
+        let again = Timed::new(monitor, &deadline, true);
+        let net = match mesher.attempt(&wishes, &again).and_then(|net| mesher.improved(net, monitor)) {
             Ok(net) => net,
-            Err(PslgError::Cancelled(c)) => return Err(c.into()),
-            // There is no finer mesh; the one that was to become better stays.
+            Err(PslgError::Cancelled(c)) if !again.has_stopped() => return Err(c.into()),
+            // There is no finer mesh, or no time for one; the one that was to become
+            // better stays.
             Err(_) => break,
         };
         retries += 1;
@@ -234,9 +252,40 @@ impl<'a> Mesher<'a> {
         self.sectors.near(net.corners(t)).is_some_and(|(s, _)| s.is_hopeless())
     }
 
-    /// One mesh, compacted.
-    fn made(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Net, PslgError> {
-        self.compacted(self.attempt(wishes, monitor)?, monitor)
+    /// A mesh optimised and compacted.
+    fn improved(&self, mut net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
+        let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
+        optimise(&mut net, self.judge(), &excused, self.deadline, monitor)?;
+        self.compacted(net, monitor)
+    }
+
+    /// The sites and pieces with no other vertices than those of a hexagon around them:
+    /// what there is time for when there is none for a grid.
+    fn rough(&self, monitor: &dyn Monitor) -> Result<Net, PslgError> {
+        let radius = ROUGH_RADII * if self.reach > 0.0 { self.reach } else { 1.0 };
+        let corner = |i: usize| {
+            let (sin, cos) = libm::sincos(i as f64 * FRAC_PI_3);
+            self.lattice.origin() + radius * DVec2::new(cos, sin)
+        };
+        let hexagon = TriMesh {
+            vertices: std::iter::once(self.lattice.origin()).chain((0..6).map(corner)).collect(),
+            triangles: (0..6).map(|i| [0, 1 + i, 1 + (i + 1) % 6].map(VertexId::new)).collect(),
+        };
+        let mut scene = Scene::plain(self.input, self.scene.pieces[..self.scene.soft as usize].to_vec());
+        scene.sites.clone_from(&self.scene.sites);
+        scene.input_of_site.clone_from(&self.scene.input_of_site);
+        scene.whole.fill(true);
+        let net = embed(Net::of(&hexagon), &scene, monitor)?;
+        self.without_holes(net)
+    }
+
+    /// What is not carved away.
+    fn without_holes(&self, mut net: Net) -> Result<Net, PslgError> {
+        carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
+        if net.alive().next().is_none() {
+            return Err(PslgError::nothing_enclosed(self.input));
+        }
+        Ok(net)
     }
 
     /// Notes what would help triangles that are left: another lattice beside rings,
@@ -326,7 +375,7 @@ impl<'a> Mesher<'a> {
         domain
     }
 
-    /// One mesh, from the grid on.
+    /// A mesh with all sites and pieces in it, from the grid on.
     fn attempt(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Net, PslgError> {
         let spacing = |p: DVec2, is_seen: bool| {
             self.limits.as_ref().map_or(f64::INFINITY, |limits| limits.spacing_at(p, is_seen))
@@ -352,13 +401,6 @@ impl<'a> Mesher<'a> {
         if dual.mesh.triangles.len() > self.options.max_triangles {
             return Err(too_many());
         }
-        let mut net = embed(Net::of(&dual.mesh), &self.scene, monitor)?;
-        carve(&mut net, &self.input.pslg.holes, self.options.extent != Extent::Hexagon);
-        if net.alive().next().is_none() {
-            return Err(PslgError::nothing_enclosed(self.input));
-        }
-        let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
-        optimise(&mut net, self.judge(), &excused, self.deadline, monitor)?;
-        Ok(net)
+        self.without_holes(embed(Net::of(&dual.mesh), &self.scene, monitor)?)
     }
 }

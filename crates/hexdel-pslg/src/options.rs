@@ -1,8 +1,8 @@
 //! What to make of a graph.
 
-use hexdel_geom::AngleBounds;
+use hexdel_geom::{AngleBounds, Monitor, Phase};
 use hexdel_optimize::Effort;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// What part of the plane a mesh covers. Holes are left out of each.
@@ -57,7 +57,9 @@ pub struct Options {
     /// were not met. It ends before with the first time that is no better, and where too
     /// much is left beside narrow corners for one mesh to settle all of it.
     pub retries: u32,
-    /// Wall-clock limit of what makes a mesh better once there is one. Without
+    /// Wall-clock limit, kept within a tenth of it or a second. What makes the mesh
+    /// better ends with it; where half of it is over before there is a mesh, the input's
+    /// own constrained Delaunay triangulation takes its place, whose triangles are as they are. Without
     /// one the result depends on the input alone; with one, also on the speed of
     /// the machine.
     pub budget: Option<Duration>,
@@ -144,24 +146,44 @@ impl Options {
     }
 }
 
+/// What a budget may be exceeded by: this part of it, or a second if that is more.
+const GRACE: f64 = 0.1;
+
+/// The part of the time, with the grace, in which the first mesh must be there. What
+/// follows, to the last check, takes no longer than making it.
+const FIRST_MESH: f64 = 0.5;
+
 /// When the time is up, if ever, and whether that has stopped any work.
 #[derive(Debug)]
 pub(crate) struct Deadline {
-    end: Option<Instant>,
+    start: Instant,
+    budget: Option<Duration>,
+    /// What finishing takes, as far as that is known, nanoseconds.
+    reserve: AtomicU64,
     spent: AtomicBool,
 }
 
 impl Deadline {
     /// So long from now.
     pub(crate) fn after(budget: Option<Duration>) -> Self {
-        // What no clock can tell never comes.
-        let end = budget.and_then(|budget| Instant::now().checked_add(budget));
-        Self { end, spent: AtomicBool::new(false) }
+        let start = Instant::now();
+        Self { start, budget, reserve: AtomicU64::new(0), spent: AtomicBool::new(false) }
+    }
+
+    /// The budget with what it may be exceeded by.
+    fn with_grace(budget: Duration) -> Duration {
+        budget.saturating_add(budget.mul_f64(GRACE).max(Duration::from_secs(1)))
+    }
+
+    /// When work that makes a mesh better must end, after the start.
+    fn end(&self) -> Option<Duration> {
+        let reserve = Duration::from_nanos(self.reserve.load(Ordering::Relaxed));
+        self.budget.map(|budget| budget.min(Self::with_grace(budget).saturating_sub(reserve)))
     }
 
     /// Whether there is no time for what comes next, which is then left undone.
     pub(crate) fn is_over(&self) -> bool {
-        let over = self.end.is_some_and(|end| Instant::now() >= end);
+        let over = self.end().is_some_and(|end| self.start.elapsed() >= end);
         if over {
             self.spend();
         }
@@ -170,7 +192,18 @@ impl Deadline {
 
     /// The time that is left.
     pub(crate) fn left(&self) -> Option<Duration> {
-        self.end.map(|end| end.saturating_duration_since(Instant::now()))
+        self.end().map(|end| end.saturating_sub(self.start.elapsed()))
+    }
+
+    /// Whether the first mesh takes too long: there would be no time to finish it.
+    fn is_late(&self) -> bool {
+        let most = |budget| Self::with_grace(budget).mul_f64(FIRST_MESH);
+        self.budget.is_some_and(|budget| self.start.elapsed() >= most(budget))
+    }
+
+    /// The first mesh is there: finishing takes about as long as it took.
+    pub(crate) fn note_first_mesh(&self) {
+        self.reserve.store(self.start.elapsed().as_nanos() as u64, Ordering::Relaxed);
     }
 
     /// Work has been left undone.
@@ -180,5 +213,77 @@ impl Deadline {
 
     pub(crate) fn is_spent(&self) -> bool {
         self.spent.load(Ordering::Relaxed)
+    }
+}
+
+/// A monitor that stops work when the time is up, too.
+pub(crate) struct Timed<'a> {
+    monitor: &'a dyn Monitor,
+    deadline: &'a Deadline,
+    /// Whether there is a mesh already: then this is work to make it better.
+    again: bool,
+    /// Whether it was time that stopped the work.
+    stopped: AtomicBool,
+}
+
+impl<'a> Timed<'a> {
+    pub(crate) fn new(monitor: &'a dyn Monitor, deadline: &'a Deadline, again: bool) -> Self {
+        Self { monitor, deadline, again, stopped: AtomicBool::new(false) }
+    }
+
+    /// Whether time has stopped the work, and nobody else.
+    pub(crate) fn has_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+}
+
+impl Monitor for Timed<'_> {
+    fn progress(&self, phase: Phase, done: u64, total: u64) {
+        self.monitor.progress(phase, done, total);
+    }
+
+    fn cancelled(&self) -> bool {
+        if self.monitor.cancelled() {
+            return true;
+        }
+        let over = if self.again { self.deadline.is_over() } else { self.deadline.is_late() };
+        if over {
+            self.deadline.spend();
+            self.stopped.store(true, Ordering::Relaxed);
+        }
+        over
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hexdel_geom::Unwatched;
+
+    #[test]
+    fn a_spent_budget_leaves_grace_for_the_first_mesh_and_none_for_more() {
+        let deadline = Deadline::after(Some(Duration::ZERO));
+        assert!(!Timed::new(&Unwatched, &deadline, false).cancelled() && !deadline.is_spent());
+        let again = Timed::new(&Unwatched, &deadline, true);
+        assert!(again.cancelled() && again.has_stopped() && deadline.is_spent());
+        assert_eq!(deadline.left(), Some(Duration::ZERO));
+    }
+
+    #[test]
+    fn without_a_budget_time_is_never_up() {
+        for deadline in [Deadline::after(None), Deadline::after(Some(Duration::MAX))] {
+            deadline.note_first_mesh();
+            let timed = [false, true].map(|again| Timed::new(&Unwatched, &deadline, again).cancelled());
+            assert!(timed == [false; 2] && !deadline.is_over() && !deadline.is_spent());
+        }
+        assert_eq!(Deadline::after(None).left(), None);
+    }
+
+    #[test]
+    fn what_finishing_takes_is_kept_free() {
+        let deadline = Deadline::after(Some(Duration::from_secs(100)));
+        deadline.reserve.store(60_000_000_000, Ordering::Relaxed);
+        let left = deadline.left().unwrap();
+        assert!(left <= Duration::from_secs(50), "{left:?}");
     }
 }

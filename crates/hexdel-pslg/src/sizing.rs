@@ -11,11 +11,12 @@
 //! they lie half a spacing away at most and `RHO >= 1`. So a child looks at
 //! what its parent saw and at nothing else: the work is near-linear.
 
+use crate::embed::ask;
 use crate::error::{Feature, PslgError};
 use crate::geometry::distance_sq;
 use crate::limits::positive;
 use crate::validate::Piece;
-use hexdel_geom::monitor::{Monitor, check};
+use hexdel_geom::monitor::{Cancelled, Monitor, check};
 use hexdel_geom::{Circle, DVec2};
 use hexdel_grid::{Address, Direction, Grid, Hex, Lattice};
 use hexdel_refine::{RefineError, Refiner, RuleSet};
@@ -95,9 +96,10 @@ pub(crate) fn refine(
     let mut expanded = FxHashSet::default();
     loop {
         check(monitor)?;
-        leaves = sizer.expand(leaves, refiner.grid(), &mut expanded);
+        leaves = sizer.expand(leaves, refiner.grid(), &mut expanded, monitor)?;
         let mut wanted = Vec::new();
-        for leaf in &leaves {
+        for (done, leaf) in leaves.iter().enumerate() {
+            ask(monitor, done)?;
             if sizer.wants(leaf)? {
                 wanted.push(leaf.at);
             }
@@ -151,9 +153,16 @@ impl Sizer<'_> {
     }
 
     /// Replaces what is subdivided by its children, down to leaves.
-    fn expand(&self, mut todo: Vec<Leaf>, grid: &Grid, expanded: &mut FxHashSet<Address>) -> Vec<Leaf> {
+    fn expand(
+        &self,
+        mut todo: Vec<Leaf>,
+        grid: &Grid,
+        expanded: &mut FxHashSet<Address>,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<Leaf>, Cancelled> {
         let mut leaves = Vec::new();
         while let Some(leaf) = todo.pop() {
+            ask(monitor, leaves.len() + expanded.len())?;
             if !grid.is_subdivided(leaf.at) {
                 leaves.push(leaf);
                 continue;
@@ -176,7 +185,7 @@ impl Sizer<'_> {
                 }
             }
         }
-        leaves
+        Ok(leaves)
     }
 
     fn wants(&self, leaf: &Leaf) -> Result<bool, PslgError> {

@@ -12,23 +12,31 @@ use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optim
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// The time that all starts together may be optimised for.
+/// The time that all there is to do may take; what must be done is done without it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Time {
-    left: Option<Duration>,
+    began: Instant,
+    budget: Option<Duration>,
 }
 
 impl Time {
+    /// So long from now.
     pub(crate) fn new(budget: Option<Duration>) -> Self {
-        Self { left: budget }
+        Self { began: Instant::now(), budget }
     }
 
-    /// Does work that may take a share of the time that is left.
-    fn spend<T>(&mut self, share: u32, work: impl FnOnce(Option<Duration>) -> T) -> T {
-        let began = Instant::now();
-        let done = work(self.left.map(|left| left / share));
-        self.left = self.left.map(|left| left.saturating_sub(began.elapsed()));
-        done
+    fn left(&self) -> Option<Duration> {
+        self.budget.map(|budget| budget.saturating_sub(self.began.elapsed()))
+    }
+
+    /// The share of the time left that work may take.
+    fn share(&self, share: u32) -> Option<Duration> {
+        self.left().map(|left| left / share)
+    }
+
+    /// Whether there is none left.
+    pub(crate) fn is_over(&self) -> bool {
+        self.left().is_some_and(|left| left.is_zero())
     }
 }
 
@@ -55,15 +63,15 @@ impl Work<'_> {
     /// A start that must be `repaired` first is brought within the bounds at once where
     /// time is limited, in half of it, so that the other half is left for a start
     /// that needs no repair.
-    pub(crate) fn optimize(&self, dual: &mut Dual, repaired: bool, time: &mut Time) -> Result<Ended, Error> {
-        if repaired && time.left.is_some() {
+    pub(crate) fn optimize(&self, dual: &mut Dual, repaired: bool, time: &Time) -> Result<Ended, Error> {
+        if repaired && time.budget.is_some() {
             let effort = self.effort.min(Effort::Fast);
-            let ended = time.spend(2, |budget| self.run(dual, effort, budget))?;
+            let ended = self.run(dual, effort, time.share(2))?;
             if !ended.reached || effort == self.effort {
                 return Ok(ended);
             }
         }
-        time.spend(1, |budget| self.run(dual, self.effort, budget))
+        self.run(dual, self.effort, time.share(1))
     }
 
     fn run(&self, dual: &mut Dual, effort: Effort, budget: Option<Duration>) -> Result<Ended, Error> {

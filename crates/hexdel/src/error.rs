@@ -80,6 +80,17 @@ pub enum Error {
         /// The bounds the method keeps for every input.
         kept: AngleBounds,
     },
+    /// Within the bounds asked for no mesh can be finer in one place than in another, as
+    /// points in general position need it: see [`AngleBounds::allow_grading`].
+    #[error(
+        "no graded mesh has all angles between {} and {} degrees: the smallest may be asked to be {:.1} at most, \
+         the largest {} at least",
+        asked.min_deg(), asked.max_deg(), AngleBounds::MOST_GRADED_MIN_DEG, AngleBounds::LEAST_GRADED_MAX_DEG
+    )]
+    NoGrading {
+        /// The bounds asked for.
+        asked: AngleBounds,
+    },
     /// The segments of a graph cross or overlap, or its arrays do not fit
     /// together.
     #[error(transparent)]

@@ -406,19 +406,28 @@ impl Mesher {
     }
 
     fn run(&self, points: &[DVec2], monitor: &dyn Monitor) -> Result<Triangulation, Error> {
+        let time = Time::new(self.budget);
         self.graph.refuse_for_points()?;
         let kept = self.method.bounds();
         let bounds = self.bounds.unwrap_or(kept);
         self.refuse_bounds_beyond(self.method)?;
+        if !bounds.allow_grading() {
+            return Err(Error::NoGrading { asked: bounds });
+        }
         let set = PointSet::new(points)?;
         let placement = Placement::around(&set, self.domain_radius, self.centre, self.method)?;
         self.check_size(&placement)?;
         let input = Input { points, set: &set, placement: &placement };
         let mut again = Again::new(monitor);
         let mut best: Option<Error> = None;
-        let mut time = Time::new(self.budget);
+        let templates_do = self.method.keeps(bounds) && self.size.is_none();
         for link in self.method.links() {
-            match self.from(*link, &input, bounds, &mut time, &again) {
+            // What is to be optimised in no time is not even begun, if another start
+            // needs no optimisation.
+            if link.start == Start::Coarse && time.is_over() && templates_do {
+                continue;
+            }
+            match self.from(*link, &input, bounds, &time, &again) {
                 Ok(Some(made)) => return Ok(made),
                 Ok(None) => again.restart(),
                 // What one start does not reach, the next one may.
@@ -447,7 +456,7 @@ impl Mesher {
         Link { start, optimize }: Link,
         Input { points, set, placement }: &Input<'_>,
         bounds: AngleBounds,
-        time: &mut Time,
+        time: &Time,
         monitor: &dyn Monitor,
     ) -> Result<Option<Triangulation>, Error> {
         let began = Instant::now();

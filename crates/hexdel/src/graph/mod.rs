@@ -22,6 +22,8 @@ use hexdel_pslg::{
 };
 use repair::Repaired;
 use result::PslgTriangulation;
+use std::time::Instant;
+use verify::Meshed;
 use watch::Stopwatch;
 
 /// The part of the plane that the mesh of a graph covers. Holes are left out of
@@ -288,6 +290,7 @@ impl Mesher {
     fn run_pslg(&self, pslg: &Pslg, monitor: &dyn Monitor) -> Result<PslgTriangulation, Error> {
         self.refuse_for_graphs()?;
         let watch = Stopwatch::new(monitor);
+        let began = Instant::now();
         let repaired = Repaired::new(pslg, self.graph.repair)?;
         let graph = &repaired.graph;
         let given = self.graph.domain;
@@ -296,30 +299,36 @@ impl Mesher {
         let boxed = (domain == Domain::Box).then(|| boxed::with_box(graph));
         let validated = validate(boxed.as_ref().unwrap_or(graph)).map_err(|e| repaired.as_given(e))?;
         self.check_graph_size(&graph.points)?;
+        let mut options = self.pslg_options(domain);
+        if !options.near.allow_grading() {
+            return Err(Error::NoGrading { asked: options.near });
+        }
+        options.budget = self.budget.map(|budget| budget.saturating_sub(began.elapsed()));
         let mut made =
-            self.mesh_of_graph(&validated, domain, &watch).map_err(|e| repaired.error_as_given(e))?;
+            self.mesh_of_graph(&validated, &options, &watch).map_err(|e| repaired.error_as_given(e))?;
         if boxed.is_some() {
             boxed::forget_box(&mut made, graph);
         }
         verify::list_all(&mut made);
         let segments = verify::segments(&mut made, graph, &validated, domain);
+        let input = Meshed { graph, validated: &validated, domain, size: self.size.as_ref() };
+        let places = verify::places(&mut made, &segments, &input, &options);
         let size_ratio = self.size.as_ref().map(|size| sized::worst(&made.mesh, size).0);
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
         let made = PslgTriangulation::new(made, segments, repaired, domain, watch.seconds());
-        Ok(PslgTriangulation { size_ratio, ..made })
+        Ok(PslgTriangulation { size_ratio, far_bounds: options.far, places, ..made })
     }
 
     fn mesh_of_graph(
         &self,
         graph: &Validated,
-        domain: Domain,
+        options: &Options,
         monitor: &dyn Monitor,
     ) -> Result<PslgMesh, PslgError> {
-        let options = self.pslg_options(domain);
         match &self.size {
-            Some(size) => mesh_sized(graph, &options, size, monitor),
-            None => mesh(graph, &options, monitor),
+            Some(size) => mesh_sized(graph, options, size, monitor),
+            None => mesh(graph, options, monitor),
         }
     }
 

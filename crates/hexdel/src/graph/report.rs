@@ -2,7 +2,7 @@
 
 use super::result::PslgTriangulation;
 use crate::triangulation::Seconds;
-use hexdel_geom::{Certificate, DVec2, Pslg, Voronoi, VoronoiSummary};
+use hexdel_geom::{AngleBounds, Certificate, DVec2, Pslg, Voronoi, VoronoiSummary};
 use hexdel_pslg::{Exception, Reason, Repair, SegmentMethod};
 use serde::Serialize;
 
@@ -22,6 +22,12 @@ pub struct PslgReport<'a> {
     /// All that the certificate says.
     #[serde(flatten)]
     pub certificate: &'a Certificate,
+    /// The bounds of triangles two edges or more away from points and segments.
+    pub far_bounds: AngleBounds,
+    /// How many of those there are.
+    pub far_triangles: usize,
+    /// Their smallest angle, degrees.
+    pub far_min_angle_deg: Option<f64>,
     /// What its Voronoi dual is like; nothing if the mesh touches itself in a
     /// point.
     pub dual: Option<VoronoiSummary>,
@@ -107,6 +113,9 @@ impl<'a> PslgReport<'a> {
             domain: made.domain.name(),
             holds: made.holds(),
             certificate: &made.certificate,
+            far_bounds: made.far_bounds,
+            far_triangles: made.places.far,
+            far_min_angle_deg: made.places.far_min_deg,
             dual: Voronoi::new(&made.mesh).ok().map(|dual| dual.summary()),
             segments: made.graph.segments.len(),
             segment_edges: made.edges_of_segment.iter().sum(),

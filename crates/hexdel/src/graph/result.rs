@@ -4,7 +4,8 @@ use super::Domain;
 use super::repair::Repaired;
 use super::report::PslgReport;
 use crate::triangulation::Seconds;
-use hexdel_geom::{Certificate, Pslg, SegmentCheck, TriMesh, VertexId};
+use hexdel_geom::certificate::PlaceCheck;
+use hexdel_geom::{AngleBounds, Certificate, Pslg, SegmentCheck, TriMesh, VertexId};
 use hexdel_pslg::{Exception, PslgMesh, RepairReport, SegmentEdge, SegmentMethod, holds};
 
 /// A mesh of a graph of points and segments.
@@ -54,6 +55,12 @@ pub struct PslgTriangulation {
     /// between the points on them; pieces in holes and outside of the domain are
     /// left out.
     pub segments: SegmentCheck,
+    /// The bounds of triangles two edges or more away from points and segments, and from
+    /// the boundary but for that of a hexagon.
+    pub far_bounds: AngleBounds,
+    /// What was found of these and of limits on areas and lengths, checked from
+    /// scratch. What is not kept is listed in [`failed`](Self::failed), too.
+    pub places: PlaceCheck,
     /// What it covers.
     pub domain: Domain,
     /// How segments came into it.
@@ -89,6 +96,8 @@ impl PslgTriangulation {
             failed: made.failed,
             certificate: made.certificate,
             size_ratio: None,
+            far_bounds: AngleBounds::EXTENDED,
+            places: PlaceCheck::default(),
             segments,
             domain,
             method: made.method,
