@@ -3,7 +3,7 @@
 //!
 //! The steps are run as a person would type them; this task installs nothing
 //! and needs the Rust toolchain with rustfmt and clippy. One test of `hexdel-io`
-//! puts meshio below `target/`, and says so if it cannot.
+//! puts meshio below `target/`; where there is a Python it must.
 
 use crate::Outcome;
 use crate::tidy;
@@ -18,7 +18,9 @@ const STEPS: &[&str] = &[
     "fmt --all --check",
     "xtask tidy",
     "clippy --workspace --all-targets -- -D warnings",
+    "doc --workspace --no-deps",
     "test --workspace",
+    "xtask regen --check",
 ];
 
 /// Runs all steps, up to the first that fails.
@@ -29,10 +31,22 @@ pub(crate) fn run() -> Outcome {
     STEPS.iter().try_for_each(|step| run_step(&cargo, step, &root))
 }
 
+/// Makes the test with meshio fail where it would be skipped.
+const REQUIRE_MESHIO: &str = "HEXDEL_REQUIRE_MESHIO";
+
+fn has_python() -> bool {
+    Command::new("python3").arg("--version").output().is_ok_and(|found| found.status.success())
+}
+
 fn run_step(cargo: &OsString, step: &str, root: &Path) -> Outcome {
     eprintln!("ci: cargo {step}");
     let start = Instant::now();
-    let status = Command::new(cargo).args(step.split(' ')).current_dir(root).status()?;
+    let mut command = Command::new(cargo);
+    command.args(step.split(' ')).current_dir(root).env("RUSTDOCFLAGS", "-D warnings");
+    if has_python() {
+        command.env(REQUIRE_MESHIO, "1");
+    }
+    let status = command.status()?;
     if !status.success() {
         return Err(format!("`cargo {step}` failed ({status})").into());
     }
@@ -49,6 +63,12 @@ mod tests {
         let readme = std::fs::read_to_string(tidy::root().join("README.md")).unwrap();
         let tests = STEPS.iter().find(|step| step.starts_with("test")).unwrap();
         assert!(readme.contains(&format!("\ncargo {tests}\n")));
+    }
+
+    #[test]
+    fn the_test_with_meshio_knows_that_it_is_required() {
+        let test = tidy::root().join("crates/hexdel-io/tests/meshio.rs");
+        assert!(std::fs::read_to_string(test).unwrap().contains(REQUIRE_MESHIO));
     }
 
     #[test]

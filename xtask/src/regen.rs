@@ -108,7 +108,7 @@ fn records(root: &Path, check: bool) -> Outcome {
     cargo.env("INSTA_UPDATE", if check { "no" } else { "always" }).env_remove("INSTA_FORCE_PASS");
     if !check {
         // Whether all records are there is a question for afterwards.
-        cargo.args(["--", "templates", "simple", "graphs"]);
+        cargo.args(["--", "templates", "simple", "compact", "graphs"]);
     }
     let status = cargo.status()?;
     if status.success() { Ok(()) } else { Err("the records of the snapshot tests do not hold".into()) }

@@ -2,8 +2,7 @@
 
 use crate::exit::{Failure, warn};
 use clap::builder::PossibleValuesParser;
-use hexdel::TriMesh;
-use hexdel_io::{Columns, MeshFormat, PointFile, PointFormat, PointReader};
+use hexdel_io::{Columns, MeshData, MeshFormat, PointFile, PointFormat, PointReader};
 use std::io;
 use std::path::Path;
 
@@ -85,11 +84,11 @@ pub(crate) fn warn_of(file: &PointFile) {
     file.warnings.iter().for_each(|warning| warn(&warning.to_string()));
 }
 
-/// A mesh.
-pub(crate) fn read_mesh(path: &Path, formats: &Formats) -> Result<TriMesh, Failure> {
+/// A mesh with what its file knows about it.
+pub(crate) fn read_mesh_data(path: &Path, formats: &Formats) -> Result<MeshData, Failure> {
     if !is_stream(path) {
-        return Ok(hexdel_io::read_mesh(path)?);
+        return Ok(hexdel_io::read_mesh_data(path)?);
     }
     let format = named(formats.of_input(), MeshFormat::from_name, "meshes", "input")?;
-    Ok(hexdel_io::read_mesh_from(io::stdin().lock(), format, STDIN)?.mesh)
+    Ok(hexdel_io::read_mesh_from(io::stdin().lock(), format, STDIN)?)
 }

@@ -4,6 +4,7 @@ use hexdel_geom::{DVec2, TriMesh, VertexId};
 use serde::Deserialize;
 
 use crate::error::ReadError;
+use crate::promised::Promised;
 use crate::view::{MarkedEdge, MeshView};
 
 /// A mesh that was read, with what its file knows about it.
@@ -36,6 +37,8 @@ pub struct MeshData {
     pub regions: Option<Vec<f64>>,
     /// The edges that have markers.
     pub marked_edges: Option<Vec<MarkedEdge>>,
+    /// What it was made to keep.
+    pub promised: Option<Promised>,
 }
 
 impl MeshData {
@@ -51,6 +54,7 @@ impl MeshData {
             vertex_markers: self.vertex_markers.as_deref(),
             regions: self.regions.as_deref(),
             marked_edges: self.marked_edges.as_deref(),
+            promised: self.promised.as_ref(),
             ..MeshView::new(&self.mesh)
         }
     }
@@ -108,6 +112,8 @@ pub(crate) struct MeshDocument {
     regions: Option<Vec<f64>>,
     #[serde(default)]
     marked_edges: Option<Vec<MarkedEdge>>,
+    #[serde(default)]
+    promised: Option<Promised>,
 }
 
 impl MeshDocument {
@@ -118,6 +124,7 @@ impl MeshDocument {
             vertex_markers: self.vertex_markers,
             regions: self.regions,
             marked_edges: self.marked_edges,
+            promised: self.promised,
         };
         data.check(file)
     }

@@ -73,6 +73,7 @@ mod picture;
 #[cfg(feature = "png")]
 mod png;
 mod point_file;
+mod promised;
 mod read;
 mod scene;
 mod second_order;
@@ -104,6 +105,7 @@ pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use mend::ReadWarning;
 pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
 pub use point_file::{PointFile, PointReader, points_beside, read_points, read_points_from};
+pub use promised::{NotPromised, Promised, PromisedDomain};
 pub use read::{holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair};
 pub use sizes::{parse_sizes, read_sizes};
 pub use view::{MarkedEdge, MeshView};

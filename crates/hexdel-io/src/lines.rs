@@ -8,6 +8,7 @@ use std::io::{BufRead, Read};
 use hexdel_geom::DVec2;
 
 use crate::error::ReadError;
+use crate::promised::PREFIX;
 
 /// The longest line accepted, in bytes. A row of coordinates takes about 60, so
 /// this leaves room for tens of thousands of attributes per point.
@@ -41,11 +42,13 @@ pub(crate) struct Lines<R> {
     buffer: Vec<u8>,
     /// Number of the line in `buffer`, from 1; 0 before the first.
     number: u64,
+    /// Comments so far that are ours, a line each.
+    notes: String,
 }
 
 impl<R: BufRead> Lines<R> {
     pub(crate) fn new(reader: R, file: &str, comments: Comments) -> Self {
-        Self { reader, file: file.to_owned(), comments, buffer: Vec::new(), number: 0 }
+        Self { reader, file: file.to_owned(), comments, buffer: Vec::new(), number: 0, notes: String::new() }
     }
 
     pub(crate) fn file(&self) -> &str {
@@ -55,6 +58,11 @@ impl<R: BufRead> Lines<R> {
     /// The number of the line last read.
     pub(crate) fn number(&self) -> u64 {
         self.number
+    }
+
+    /// The comments read so far that say what a mesh was made to keep.
+    pub(crate) fn notes(&self) -> &str {
+        &self.notes
     }
 
     /// The next line with something on it, trimmed, without comment.
@@ -67,7 +75,11 @@ impl<R: BufRead> Lines<R> {
             }
             // A comment must be text as well: a binary file is not to be taken
             // for one of comments only.
-            self.text()?;
+            let comment = self.text()?.trim_ascii_start().trim_start_matches(['#', ' ']).trim_ascii_end();
+            if comment.starts_with(PREFIX) {
+                let note = comment.to_owned() + "\n";
+                self.notes.push_str(&note);
+            }
         }
         Ok(None)
     }

@@ -182,6 +182,7 @@ impl Parts {
             regions: self.regions.iter().any(|&r| r != 0.0).then_some(self.regions),
             marked_edges: (!self.edges.is_empty()).then_some(self.edges),
             input_indices: None,
+            promised: None,
         })
     }
 }

@@ -9,6 +9,7 @@
 //!  "vertex_markers": [1, ..],                           likewise
 //!  "regions": [1.0, ..],                                likewise
 //!  "marked_edges": [{"ends": [0, 1], "marker": 1}, ..], likewise
+//!  "promised": {"near": .., "far": .., "domain": "inside", "exempt": [3, ..]},
 //!  "certificate": {..}}                                 if there is one
 //! ```
 //!
@@ -63,6 +64,10 @@ pub(crate) fn write_json(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result
         })?;
     }
     text.text("]");
+    if let Some(promised) = view.promised {
+        let promised = serde_json::to_string(promised).map_err(io::Error::other)?;
+        text.text(",\n\"promised\": ").text(&promised);
+    }
     if let Some(certificate) = view.certificate {
         let certificate = serde_json::to_string(certificate).map_err(io::Error::other)?;
         text.text(",\n\"certificate\": ").text(&certificate);

@@ -11,6 +11,7 @@
 //!     vertex_markers: Some([..]),                likewise
 //!     regions: Some([..]),                       likewise
 //!     marked_edges: Some([(ends: (0, 1), marker: 1), ..]),
+//!     promised: Some(..),                        likewise
 //!     certificate: Some(..),                     if there is one
 //! )
 //! ```
@@ -31,6 +32,7 @@ use crate::data::{MeshData, MeshDocument};
 use crate::error::ReadError;
 use crate::json::Source;
 use crate::lines::clip_message;
+use crate::promised::Promised;
 use crate::view::{MarkedEdge, MeshView};
 
 #[derive(Serialize)]
@@ -46,6 +48,8 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     marked_edges: Option<&'a [MarkedEdge]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    promised: Option<&'a Promised>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     certificate: Option<&'a dyn erased_serde::Serialize>,
 }
 
@@ -60,6 +64,7 @@ pub(crate) fn write_ron(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
             vertex_markers: view.vertex_markers,
             regions: view.regions,
             marked_edges: view.marked_edges,
+            promised: view.promised,
             certificate: view.certificate,
         },
     )

@@ -17,6 +17,7 @@ use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Comments, quote};
 use crate::msh_out::{LINE, POINT, TRIANGLE};
+use crate::promised::Promised;
 use crate::tags::{Sorted, Tags};
 use crate::tokens::Tokens;
 use crate::view::MarkedEdge;
@@ -53,6 +54,8 @@ struct Msh<R> {
     markers: Option<Vec<(u64, f64)>>,
     inputs: Option<Vec<(u64, f64)>>,
     regions: Option<Vec<(u64, f64)>>,
+    exempt: Vec<(u64, f64)>,
+    promised: Option<Promised>,
 }
 
 impl<R: BufRead> Msh<R> {
@@ -69,6 +72,8 @@ impl<R: BufRead> Msh<R> {
             markers: None,
             inputs: None,
             regions: None,
+            exempt: Vec::new(),
+            promised: None,
         }
     }
 
@@ -81,6 +86,7 @@ impl<R: BufRead> Msh<R> {
             ("Nodes", _) => self.nodes41()?,
             ("Elements", 2) => self.elements22()?,
             ("Elements", _) => self.elements41()?,
+            ("PhysicalNames", _) => return self.names(section),
             ("NodeData" | "ElementData", _) => return self.data(section),
             _ => return self.skip_to_end(section),
         }
@@ -101,6 +107,21 @@ impl<R: BufRead> Msh<R> {
         }
         self.tokens.parse::<u32>("the size of numbers")?;
         Ok(())
+    }
+
+    /// Among the names of groups, the one that says what the mesh was made to keep.
+    fn names(&mut self, section: &str) -> Result<(), ReadError> {
+        loop {
+            let Some(line) = self.tokens.line_text()? else {
+                return Err(self.tokens.malformed("the end of the section", None));
+            };
+            if line.strip_prefix("$End") == Some(section) {
+                return Ok(());
+            }
+            if let Some(Ok(promised)) = line.split('"').nth(1).map(str::parse) {
+                self.promised = Some(promised);
+            }
+        }
     }
 
     fn entities(&mut self) -> Result<(), ReadError> {
@@ -297,7 +318,7 @@ impl<R: BufRead> Msh<R> {
         }
         let known = matches!(
             (section, name.as_str()),
-            ("NodeData", "marker" | "input_index") | ("ElementData", "region")
+            ("NodeData", "marker" | "input_index") | ("ElementData", "region" | "exempt")
         );
         if !known || components != 1 {
             return self.skip_to_end(section);
@@ -310,6 +331,7 @@ impl<R: BufRead> Msh<R> {
         match name.as_str() {
             "marker" => self.markers = Some(rows),
             "region" => self.regions = Some(rows),
+            "exempt" => self.exempt = rows,
             _ => self.inputs = Some(rows),
         }
         self.end(section)
@@ -336,6 +358,12 @@ impl<R: BufRead> Msh<R> {
         let mut data = MeshData { mesh: self.mesh, ..MeshData::default() };
         let (vertices, file) = (data.mesh.vertices.len(), self.tokens.file());
         let (tags, triangles) = self.triangles.sorted();
+        if let Some(mut promised) = self.promised {
+            let exempt = self.exempt.iter().filter(|row| row.1 != 0.0);
+            let index = |tag: &u64| tags.binary_search(tag).ok().map(|t| t as u32);
+            promised.exempt = exempt.filter_map(|(tag, _)| index(tag)).collect();
+            data.promised = Some(promised);
+        }
         if let Some(rows) = self.regions {
             let of_tag: HashMap<u64, usize> = tags.iter().enumerate().map(|(i, &tag)| (tag, i)).collect();
             data.regions = Some(column(&rows, triangles.len(), |tag| of_tag.get(&tag).copied()));

@@ -7,6 +7,9 @@
 //! data `region` as well. Node data are `marker` and `input_index` (-1 for Steiner
 //! points), so that all of it is read back.
 //!
+//! What a mesh was made to keep is the name of a group of points without elements, and
+//! element data `exempt` of the triangles that are.
+//!
 //! Negative markers and regions are written as they are; Gmsh takes the sign of a
 //! group for an orientation.
 
@@ -84,12 +87,16 @@ impl<'w, 'a> Msh<'w, 'a> {
 
     fn names(&mut self) -> io::Result<()> {
         let groups = |groups: &[i32]| groups.iter().filter(|&&g| g != 0).count();
-        let count = groups(&self.markers) + groups(&self.regions);
+        let promised = self.view.promised;
+        let count = groups(&self.markers) + groups(&self.regions) + usize::from(promised.is_some());
         if count == 0 {
             return Ok(());
         }
         let text = &mut self.text;
         text.text("$PhysicalNames\n").integer(count).text("\n");
+        if let Some(promised) = promised {
+            text.text("0 1 \"").text(&promised.head()).text("\"\n");
+        }
         for (dimension, name, groups) in [("1 ", "marker", &self.markers), ("2 ", "region", &self.regions)] {
             for &group in groups.iter().filter(|&&g| g != 0) {
                 text.text(dimension).integer(group).text(" \"").text(name);
@@ -234,6 +241,11 @@ impl<'w, 'a> Msh<'w, 'a> {
         }
         if let Some(inputs) = view.input_indices {
             self.table("input_index", inputs.iter().map(|i| i.map_or(-1.0, f64::from)))?;
+        }
+        if let Some(exempt) = view.promised.map(|p| &p.exempt).filter(|exempt| !exempt.is_empty()) {
+            let edges = view.marked_edges.map_or(0, <[_]>::len);
+            let rows = exempt.iter().map(|&t| (edges + t as usize + 1, 1.0));
+            self.rows("Element", "exempt", exempt.len(), rows)?;
         }
         if let Some(regions) = view.regions
             && regions.iter().any(|&r| f64::from(group(r)) != r)

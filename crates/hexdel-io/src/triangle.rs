@@ -115,7 +115,8 @@ pub(crate) fn read_ele(
     end_of_file(&mut lines, "triangles")?;
     let vertex_markers = (!points.point_markers.is_empty()).then_some(points.point_markers);
     let regions = (attributes > 0).then_some(regions);
-    Ok(MeshData { input_indices, vertex_markers, regions, ..MeshData::new(mesh) })
+    let promised = lines.notes().parse().ok();
+    Ok(MeshData { input_indices, vertex_markers, regions, promised, ..MeshData::new(mesh) })
 }
 
 /// The only attribute of vertices, if it can be what is written here: the index of

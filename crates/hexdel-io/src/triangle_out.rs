@@ -3,6 +3,7 @@
 //! Everything is numbered from 0, or from 1 where a mesh is to be. Meshes whose vertices know their input point
 //! carry its index as the one attribute, -1 for Steiner points, unless there are attributes of
 //! their own; triangles carry the attribute of their region, vertices a marker, if the mesh has them.
+//! What a mesh was made to keep is a comment at the end of the `.ele` file.
 
 use std::io::{self, Write};
 
@@ -101,6 +102,11 @@ pub(crate) fn write_ele(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
             text.text(" ").number(regions[i]);
         }
         text.text("\n").breathe()?;
+    }
+    if let Some(promised) = view.promised {
+        for line in promised.to_string().lines() {
+            text.text("# ").text(line).text("\n").breathe()?;
+        }
     }
     text.finish()
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::WriteError;
 use crate::format::MeshFormat;
 use crate::picture::Picture;
+use crate::promised::Promised;
 
 /// An edge of a mesh that has a marker: on an input segment or on the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,6 +55,8 @@ pub struct MeshView<'a> {
     pub marked_edges: Option<&'a [MarkedEdge]>,
     /// What was certified of the mesh. Kept by `.ron`.
     pub certificate: Option<&'a dyn erased_serde::Serialize>,
+    /// What it was made to keep. Kept by `.ele`, `.vtu`, `.msh`, `.json` and `.ron`.
+    pub promised: Option<&'a Promised>,
     /// Whether triangles get nodes on the midpoints of their edges, as elements of
     /// second order. Kept by `.node` and `.ele`.
     pub second_order: bool,
@@ -78,6 +81,7 @@ impl<'a> MeshView<'a> {
             regions: None,
             marked_edges: None,
             certificate: None,
+            promised: None,
             second_order: false,
             vertex_attributes: None,
             first_number: 0,
@@ -132,6 +136,12 @@ impl<'a> MeshView<'a> {
     #[must_use]
     pub fn with_seeds(self, holes: &'a [DVec2], regions: &'a [Region]) -> Self {
         Self { seeds: (holes, regions), ..self }
+    }
+
+    /// With what it was made to keep.
+    #[must_use]
+    pub fn with_promised(self, promised: &'a Promised) -> Self {
+        Self { promised: Some(promised), ..self }
     }
 
     /// With nodes on the midpoints of edges, or without.
@@ -251,6 +261,7 @@ impl fmt::Debug for MeshView<'_> {
             .field("regions", &self.regions.is_some())
             .field("marked_edges", &self.marked_edges.map(<[_]>::len))
             .field("certificate", &self.certificate.is_some())
+            .field("promised", &self.promised)
             .field("picture", &self.picture)
             .finish()
     }

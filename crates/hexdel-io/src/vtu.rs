@@ -2,7 +2,8 @@
 //!
 //! Cell data are `min_angle` and `max_angle` in degrees and `region`, the attribute
 //! of the triangle's region; point data are `input_index` (-1 for Steiner points)
-//! and `marker`; what the mesh view does not have is left out.
+//! and `marker`; field data say what the mesh was made to keep. What the mesh view
+//! does not have is left out.
 //!
 //! Arrays are stored in place as base64 of little-endian binary with a 64-bit byte
 //! count before them ("binary" in VTK's terms, uncompressed): coordinates keep
@@ -18,6 +19,7 @@ use base64::write::EncoderWriter;
 use hexdel_geom::{DVec2, TriangleId};
 
 use crate::angles::angle_range_deg;
+use crate::promised::Promised;
 use crate::view::MeshView;
 
 /// VTK's number of the cell type triangle.
@@ -26,7 +28,7 @@ const VTK_TRIANGLE: u8 = 5;
 /// Writes a mesh.
 pub(crate) fn write_vtu(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(1 << 16, out);
-    begin(&mut out, &view.mesh.vertices, view.mesh.triangles.len())?;
+    begin_with(&mut out, &view.mesh.vertices, view.mesh.triangles.len(), view.promised)?;
     cells(&mut out, view)?;
     point_data(&mut out, view)?;
     cell_data(&mut out, view)?;
@@ -35,19 +37,47 @@ pub(crate) fn write_vtu(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
 
 /// Writes the file up to and with the points of so many cells.
 pub(crate) fn begin(out: &mut dyn Write, points: &[DVec2], cells: usize) -> io::Result<()> {
+    begin_with(out, points, cells, None)
+}
+
+fn begin_with(
+    out: &mut dyn Write,
+    points: &[DVec2],
+    cells: usize,
+    promised: Option<&Promised>,
+) -> io::Result<()> {
     let count = points.len();
     write!(
         out,
         "<?xml version=\"1.0\"?>\n\
          <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
          byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-         <UnstructuredGrid>\n\
-         <Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n<Points>\n",
+         <UnstructuredGrid>\n"
     )?;
+    if let Some(promised) = promised {
+        field_data(out, promised)?;
+    }
+    write!(out, "<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n<Points>\n",)?;
     let coordinates = points.iter().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
     let attributes = "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"";
     array(out, attributes, 3 * count, coordinates)?;
     out.write_all(b"</Points>\n")
+}
+
+/// What the mesh was made to keep: four bounds, the number of the domain, the exempt
+/// triangles.
+fn field_data(out: &mut dyn Write, promised: &Promised) -> io::Result<()> {
+    let Promised { near, far, domain, exempt } = promised;
+    out.write_all(b"<FieldData>\n")?;
+    let bounds = [near.min_deg(), near.max_deg(), far.min_deg(), far.max_deg()];
+    let attributes = "type=\"Float64\" Name=\"hexdel_bounds\" NumberOfTuples=\"4\"";
+    array(out, attributes, bounds.len(), bounds.into_iter().map(f64::to_le_bytes))?;
+    let attributes = "type=\"UInt8\" Name=\"hexdel_domain\" NumberOfTuples=\"1\"";
+    array(out, attributes, 1, std::iter::once([domain.number()]))?;
+    let count = exempt.len();
+    let attributes = format!("type=\"Int64\" Name=\"hexdel_exempt\" NumberOfTuples=\"{count}\"");
+    array(out, &attributes, count, exempt.iter().map(|&t| i64::from(t).to_le_bytes()))?;
+    out.write_all(b"</FieldData>\n")
 }
 
 /// Writes what stands after the last array of cell data.

@@ -13,13 +13,14 @@ use std::cell::Cell;
 use std::io::{self, BufRead, Read};
 use std::rc::Rc;
 
-use hexdel_geom::{DVec2, VertexId};
+use hexdel_geom::{AngleBounds, DVec2, VertexId};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
 use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::clip_message;
+use crate::promised::{Promised, PromisedDomain};
 use crate::view::MarkedEdge;
 use crate::vtu_array::{Appended, Array, Encoding, Values};
 
@@ -35,8 +36,14 @@ const MAX_ITEMS: usize = u32::MAX as usize;
 pub(crate) fn read_vtu(reader: impl BufRead, file: &str) -> Result<MeshData, ReadError> {
     let line = Rc::new(Cell::new(1));
     let counting = Counting { reader, line: Rc::clone(&line) };
-    let mut grid =
-        Grid { file: file.to_owned(), line, encoding: None, pieces: Vec::new(), place: Vec::new() };
+    let mut grid = Grid {
+        file: file.to_owned(),
+        line,
+        encoding: None,
+        pieces: Vec::new(),
+        fields: Vec::new(),
+        place: Vec::new(),
+    };
     let appended = grid.tags(Reader::from_reader(counting))?;
     grid.mesh(Appended::new(appended))
 }
@@ -91,6 +98,9 @@ enum Want {
     Inputs,
     Regions,
     EdgeMarkers,
+    Bounds,
+    Domain,
+    Exempt,
 }
 
 struct Grid {
@@ -99,6 +109,8 @@ struct Grid {
     /// How the arrays are stored, as soon as the file says so.
     encoding: Option<Encoding>,
     pieces: Vec<Piece>,
+    /// Field data.
+    fields: Vec<(Want, Array)>,
     /// The names of the tags around.
     place: Vec<String>,
 }
@@ -208,11 +220,18 @@ impl Grid {
             ("PointData", "input_index") => Want::Inputs,
             ("CellData", "region") => Want::Regions,
             ("CellData", "marker") => Want::EdgeMarkers,
+            ("FieldData", "hexdel_bounds") => Want::Bounds,
+            ("FieldData", "hexdel_domain") => Want::Domain,
+            ("FieldData", "hexdel_exempt") => Want::Exempt,
             _ => return None,
         })
     }
 
     fn keep(&mut self, want: Want, array: Array) -> Result<(), ReadError> {
+        if matches!(want, Want::Bounds | Want::Domain | Want::Exempt) {
+            self.fields.push((want, array));
+            return Ok(());
+        }
         let fault = match self.pieces.last_mut() {
             Some(piece) if piece.arrays.iter().all(|(w, _)| *w != want) => {
                 piece.arrays.push((want, array));
@@ -277,7 +296,27 @@ impl Grid {
             self.piece(piece, &encoding, &mut appended, &mut data, &mut columns)?;
         }
         columns.settle(&mut data);
+        data.promised = self.promised(&encoding, &mut appended)?;
         Ok(data)
+    }
+
+    /// What field data say that the mesh was made to keep; none if they do not fit.
+    fn promised(
+        &mut self,
+        encoding: &Encoding,
+        appended: &mut Appended,
+    ) -> Result<Option<Promised>, ReadError> {
+        let mut values: Vec<(Want, Vec<f64>)> = Vec::new();
+        for (want, array) in std::mem::take(&mut self.fields) {
+            let found = array.values(encoding, appended).map_err(|fault| self.fault(fault))?;
+            values.push((want, (0..found.len()).map(|i| found.get(i)).collect()));
+        }
+        let take = |want| values.iter().find(|(w, _)| *w == want).map_or(&[][..], |(_, v)| v);
+        let (&[a, b, c, d], &[domain]) = (take(Want::Bounds), take(Want::Domain)) else { return Ok(None) };
+        let (Ok(near), Ok(far)) = (AngleBounds::new(a, b), AngleBounds::new(c, d)) else { return Ok(None) };
+        let exempt = take(Want::Exempt).iter().map(|&t| t as u32).collect();
+        let domain = PromisedDomain::of_number(domain);
+        Ok(domain.map(|domain| Promised { near, far, domain, exempt }))
     }
 
     fn piece(

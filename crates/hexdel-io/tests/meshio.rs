@@ -2,7 +2,8 @@
 //! a virtual environment of Python that is made once below `target/`. Of what meshio does
 //! not know, Triangle's formats, JSON, RON and pictures, Python itself is the reader.
 //!
-//! Without Python or a package registry this is skipped, and says so. There is no test
+//! Without Python or a package registry this is skipped, and says so, unless
+//! `HEXDEL_REQUIRE_MESHIO` is set: then it fails. There is no test
 //! harness around it, which would keep that line to itself.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, and this one talks")]
@@ -24,6 +25,10 @@ fn main() -> ExitCode {
     }
     let python = match environment() {
         Ok(python) => python,
+        Err(reason) if std::env::var_os("HEXDEL_REQUIRE_MESHIO").is_some() => {
+            println!("meshio: required and not there, {reason}");
+            return ExitCode::FAILURE;
+        }
         Err(reason) => {
             println!("meshio: skipped, {reason}");
             return ExitCode::SUCCESS;

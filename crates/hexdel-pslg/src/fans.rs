@@ -26,7 +26,9 @@
 //! divided. No region ends at them.
 
 use crate::geometry::{distance_sq, nearest_on};
+use crate::hull::with_hull;
 use crate::net::{Kind, NONE, Net};
+use crate::options::Extent;
 use crate::sectors::direction;
 use crate::validate::{Piece, Validated};
 use hexdel_geom::{AngleBounds, DVec2, point_on_segment};
@@ -129,6 +131,27 @@ pub(crate) fn with_fans(
         scene.fans = found;
     }
     scene
+}
+
+/// The points of a graph, by index, that may have a fan of triangles around them: those with
+/// corners narrower than a mesh with these bounds near points and segments has room
+/// for. The vertices around them count as points.
+///
+/// ```
+/// use hexdel_geom::{AngleBounds, DVec2, Pslg};
+/// use hexdel_pslg::{Extent, fan_points, validate};
+///
+/// let mut graph = Pslg::from_points(vec![DVec2::X, DVec2::ZERO, DVec2::new(1.0, 0.1)]);
+/// graph.segments = vec![[0, 1], [1, 2]];
+/// let near = AngleBounds::new(30.0, 90.0)?;
+/// assert_eq!(fan_points(&validate(&graph)?, Extent::Hexagon, near), [1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn fan_points(input: &Validated, extent: Extent, near: AngleBounds) -> Vec<u32> {
+    let pieces = if extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
+    let scene = Scene::plain(input, pieces);
+    let spokes = Spokes::of(&scene);
+    spokes.corners(near).map(|corner| scene.input_of_site[corner[0].site as usize]).collect()
 }
 
 /// A piece as seen from one of its ends.

@@ -64,6 +64,7 @@ mod sizing;
 mod validate;
 pub use carve::Carved;
 pub use error::{Feature, LooseEnd, PslgError, ValidateError};
+pub use fans::fan_points;
 pub use hexdel_optimize::Effort;
 pub use mesher::{mesh, mesh_sized};
 pub use options::{Extent, Options, SegmentMethod};

@@ -60,7 +60,7 @@ fn two_rings_away_the_plain_bounds_hold() {
     let far = |options: Options| {
         let made = made(&pslg, &options);
         let segments = check_segments(&made.mesh, &pslg.points, &pslg.segments);
-        let features = features(&made.mesh, &pslg.points, &segments.edges, false);
+        let features = features(&made.mesh, &pslg.points, &[], &segments.edges, false);
         let far = Some((AngleBounds::EXTENDED, &features[..]));
         let found = check_promises(&made.mesh, &Promises { far, ..Promises::default() });
         assert!(found.holds(), "{options:?}");

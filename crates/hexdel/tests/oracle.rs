@@ -15,7 +15,7 @@
 mod common;
 
 use hexdel::geom::incircle;
-use hexdel::{DVec2, Mesher, Method, Triangulation, VertexId};
+use hexdel::{DVec2, Mesher, Triangulation, VertexId};
 use proptest::prelude::*;
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,10 +86,10 @@ proptest! {
     #[test]
     fn random_points_agree_with_spade(
         raw in prop::collection::vec((-1.0..1.0, -1.0..1.0), 1..30),
-        simple in any::<bool>(),
+        method in 0..common::METHODS.len(),
     ) {
         let points: Vec<DVec2> = raw.into_iter().map(DVec2::from).collect();
-        let method = if simple { Method::Simple } else { Method::Templates };
+        let (method, _) = common::METHODS[method];
         agrees(&Mesher::new().method(method).triangulate(&points).unwrap());
     }
 }

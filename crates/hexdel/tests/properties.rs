@@ -1,6 +1,5 @@
-//! What holds for every input, tried on random ones: meshes of the grid, by
-//! templates and by simple refinement. The compact method's own are in
-//! `compact.rs`.
+//! What holds for every input, tried on random ones, by every method. What the
+//! compact method promises alone is in `compact.rs`.
 //!
 //! A failing case is not kept by proptest: once understood it goes to
 //! `fixtures/regressions`, where every later test sees it.
@@ -57,6 +56,11 @@ proptest! {
     #[test]
     fn simple_refinement_keeps_its_promises(points in point_sets(80)) {
         hold(&mesh(&points, Method::Simple), &points);
+    }
+
+    #[test]
+    fn the_compact_method_keeps_its_promises(points in point_sets(20)) {
+        hold(&mesh(&points, Method::Compact), &points);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 #[path = "common/sessions.rs"]
 mod common;
 
-use common::{Copy, refused};
+use common::{Copy, Tally, refused};
 use hexdel::size::SizeError;
 use hexdel::{DVec2, Effort, Mesher, Outcome, PointId, Session, SessionError, Size, generate};
 use proptest::prelude::*;
@@ -68,6 +68,9 @@ fn run(session: &mut Session, call: &Call) -> Result<Outcome, SessionError> {
     }
 }
 
+/// Of the calls on random sessions.
+static TALLY: Tally = Tally::new();
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
 
@@ -77,7 +80,9 @@ proptest! {
         let mut copy = Copy::of(&session);
         for call in &calls {
             let before = session.to_ron().unwrap();
-            if let Ok(outcome) = run(&mut session, call) {
+            let done = run(&mut session, call);
+            TALLY.note(&done);
+            if let Ok(outcome) = done {
                 copy.follow(&outcome.delta);
             } else {
                 prop_assert_eq!(session.to_ron().unwrap(), before, "after {:?}", call);

@@ -5,7 +5,7 @@
 #[path = "common/sessions.rs"]
 mod common;
 
-use common::{Copy, refused};
+use common::{Copy, Tally, refused};
 use hexdel::geom::{Region, point_on_segment};
 use hexdel::{DVec2, Domain, Mesher, Outcome, PointId, Pslg, Session, SessionError, SessionMesh, Size};
 use proptest::prelude::*;
@@ -90,6 +90,9 @@ fn run(session: &mut Session, graph: &Pslg, call: &Call) -> Result<Outcome, Sess
     }
 }
 
+/// Of the calls on random sessions.
+static TALLY: Tally = Tally::new();
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 10, ..ProptestConfig::default() })]
 
@@ -100,7 +103,9 @@ proptest! {
         let mut copy = Copy::of(&session);
         for call in &calls {
             let before = session.to_ron().unwrap();
-            if let Ok(outcome) = run(&mut session, &graph, call) {
+            let done = run(&mut session, &graph, call);
+            TALLY.note(&done);
+            if let Ok(outcome) = done {
                 copy.follow(&outcome.delta);
             } else {
                 prop_assert_eq!(session.to_ron().unwrap(), before, "after {:?}", call);

@@ -31,6 +31,11 @@ fn simple() {
     hold_all(Method::Simple);
 }
 
+#[test]
+fn compact() {
+    hold_all(Method::Compact);
+}
+
 /// A record whose fixture is gone would be held by nothing.
 #[test]
 fn every_record_has_its_fixture() {
@@ -109,7 +114,7 @@ fn settings() -> insta::Settings {
 fn hold_all(method: Method) {
     let _bound = settings().bind_to_scope();
     for fixture in common::fixtures() {
-        let name = METHODS.into_iter().find(|(m, _)| *m == method).expect("both are listed").1;
+        let name = METHODS.into_iter().find(|(m, _)| *m == method).expect("all are listed").1;
         let result = Mesher::new().method(method).triangulate(&fixture.points);
         let text = match result {
             Ok(made) => {

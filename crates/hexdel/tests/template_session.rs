@@ -6,7 +6,7 @@
 #[path = "common/sessions.rs"]
 mod common;
 
-use common::{Copy, refused};
+use common::{Copy, Tally, refused};
 use hexdel::optimize::triangle_fits;
 use hexdel::{
     DVec2, Mesher, Method, Outcome, PointId, SessionError, Size, SizeError, TemplateSession, VertexId,
@@ -85,6 +85,9 @@ fn run(session: &mut TemplateSession, call: &Call) -> Result<Outcome, SessionErr
     }
 }
 
+/// Of the calls on random sessions.
+static TALLY: Tally = Tally::new();
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
@@ -94,7 +97,9 @@ proptest! {
         let mut told = Copy::of(&session);
         for call in &calls {
             let before = session.to_ron().unwrap();
-            if let Ok(outcome) = run(&mut session, call) {
+            let done = run(&mut session, call);
+            TALLY.note(&done);
+            if let Ok(outcome) = done {
                 told.follow(&outcome.delta);
             } else {
                 prop_assert_eq!(session.to_ron().unwrap(), before, "after {:?}", call);

@@ -1,10 +1,11 @@
 //! What a mesh must keep of a graph's segments.
 
 use super::finding;
-use hexdel::geom::certificate::Violation;
+use hexdel::geom::certificate::{PlaceCheck, Promises, Violation, check_promises, features};
 use hexdel::geom::segments::{covered, is_on};
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, MissingSegment, SegmentCheck, check_segments, quality};
-use hexdel::{Certificate, DVec2, Pslg, TriMesh, pslg};
+use hexdel::{AngleBounds, Certificate, DVec2, Pslg, TriMesh, pslg};
+use hexdel_io::{Promised, PromisedDomain};
 use serde::Serialize;
 use std::cmp::Ordering;
 
@@ -15,12 +16,22 @@ pub(super) struct OfGraph {
     segments: SegmentCheck,
     /// Triangles below the bound in a corner where two segments are, too.
     exempt: usize,
+    /// What was found of the triangles two edges or more away from points and segments,
+    /// if their bounds are known.
+    far: Option<PlaceCheck>,
+    #[serde(skip)]
+    far_bounds: AngleBounds,
 }
 
 impl OfGraph {
     /// Holds a mesh against a graph. Exempt triangles, and points in holes or
     /// outside, are taken out of the certificate.
-    pub(super) fn new(mesh: &TriMesh, graph: &Pslg, certificate: &mut Certificate) -> Self {
+    pub(super) fn new(
+        mesh: &TriMesh,
+        graph: &Pslg,
+        promised: Option<&Promised>,
+        certificate: &mut Certificate,
+    ) -> Self {
         let domain = Wanted::of(graph, certificate.bounds.min_deg());
         let mut segments = check_segments(mesh, &graph.points, &domain.pieces);
         let midpoints: Vec<DVec2> = segments.missing.iter().map(|m| m.ends[0].midpoint(m.ends[1])).collect();
@@ -76,37 +87,38 @@ impl OfGraph {
         certificate.out_of_bounds -= exempt;
         certificate.inputs -= outside;
         certificate.unused_vertices -= unused;
-        Self { segments, exempt }
+        let far = promised.map(|promised| {
+            let with_boundary = promised.domain != PromisedDomain::Hexagon;
+            let features =
+                features(mesh, &graph.points, &fans(graph, promised), &segments.edges, with_boundary);
+            let far = Some((promised.far, &features[..]));
+            check_promises(mesh, &Promises { far, ..Promises::default() })
+        });
+        let far_bounds = promised.map_or(AngleBounds::EXTENDED, |promised| promised.far);
+        Self { segments, exempt, far, far_bounds }
     }
 
-    /// Whether the mesh is what it should be.
-    pub(super) fn holds(&self, c: &Certificate) -> bool {
-        let broken =
-            c.malformed + c.not_finite + c.not_counter_clockwise + c.repeated_edges + c.unused_vertices;
-        broken + c.out_of_bounds == 0
-            && c.triangles > 0
-            && c.delaunay
-            && c.inputs_kept == c.inputs
-            && self.segments.missing.is_empty()
+    /// Whether the mesh has of the graph what it should have.
+    pub(super) fn holds(&self) -> bool {
+        self.segments.missing.is_empty() && self.far.as_ref().is_none_or(PlaceCheck::holds)
     }
 
-    /// What takes the place of being a disk.
-    pub(super) fn findings(&self, c: &Certificate) -> Vec<(bool, String)> {
+    pub(super) fn findings(&self) -> Vec<(bool, String)> {
         let (segments, kept) = (self.segments.segments, self.segments.kept);
-        let mut findings = vec![
-            finding(
-                c.repeated_edges + c.unused_vertices == 0 && c.triangles > 0,
-                format!(
-                    "{} boundary loops, Euler characteristic {}",
-                    c.boundary_loops, c.euler_characteristic
-                ),
-                format!("{} edges repeated, {} vertices unused", c.repeated_edges, c.unused_vertices),
-            ),
-            (self.segments.missing.is_empty(), format!("{kept} of {segments} segments are unions of edges")),
-        ];
+        let missing = self.segments.missing.is_empty();
+        let mut findings = vec![(missing, format!("{kept} of {segments} segments are unions of edges"))];
         if self.exempt > 0 {
             let n = self.exempt;
             findings.push((true, format!("{n} triangles exempt in corners narrower than the bound")));
+        }
+        if let Some(far) = self.far.as_ref().filter(|far| far.far > 0) {
+            let (n, broken) = (far.far, far.broken.len());
+            let bounds = format!("{:.4} to {:.4}", self.far_bounds.min_deg(), self.far_bounds.max_deg());
+            findings.push(finding(
+                broken == 0,
+                format!("{n} triangles two edges from points and segments, within {bounds} degrees"),
+                format!("{broken} of {n} triangles two edges from points and segments not within {bounds}"),
+            ));
         }
         findings
     }
@@ -133,15 +145,27 @@ fn spare_places(mesh: &TriMesh, graph: &Pslg, domain: &Wanted) -> Vec<DVec2> {
     places
 }
 
+/// The points that may have a fan around them: their neighbours count as points do.
+fn fans(graph: &Pslg, promised: &Promised) -> Vec<DVec2> {
+    let extent = match promised.domain {
+        PromisedDomain::Hull => pslg::Extent::Hull,
+        PromisedDomain::Hexagon => pslg::Extent::Hexagon,
+        _ => pslg::Extent::Inside,
+    };
+    let Ok(valid) = pslg::validate(graph) else { return Vec::new() };
+    let points = pslg::fan_points(&valid, extent, promised.near).into_iter();
+    points.map(|p| graph.points[p as usize]).collect()
+}
+
 /// Whether the angles at the other corners are within bounds.
-fn others_keep(corners: [DVec2; 3], corner: usize, bounds: hexdel::AngleBounds) -> bool {
+fn others_keep(corners: [DVec2; 3], corner: usize, bounds: AngleBounds) -> bool {
     let angles = quality::angles_deg(corners);
     let least = bounds.min_deg() - ANGLE_TOLERANCE_DEG;
     let most = bounds.max_deg() + ANGLE_TOLERANCE_DEG;
     (0..3).all(|i| i == corner || (least..=most).contains(&angles[i]))
 }
 
-fn keeps_upper(corners: [DVec2; 3], bounds: hexdel::AngleBounds) -> bool {
+fn keeps_upper(corners: [DVec2; 3], bounds: AngleBounds) -> bool {
     quality::angles_deg(corners).into_iter().all(|a| a <= bounds.max_deg() + ANGLE_TOLERANCE_DEG)
 }
 

@@ -3,12 +3,14 @@
 mod graph;
 
 use crate::exit::{Outcome, Verdict, print};
-use crate::input::{Formats, is_stream, read_graph, read_mesh};
+use crate::input::{Formats, is_stream, read_graph, read_mesh_data};
 use graph::OfGraph;
 use hexdel::geom::certificate::Violation;
-use hexdel::geom::{CertifyOptions, certify};
-use hexdel::{AngleBounds, Certificate, DVec2};
+use hexdel::geom::{ANGLE_TOLERANCE_DEG, BoundsError, CertifyOptions, certify, quality};
+use hexdel::{AngleBounds, Certificate, DVec2, TriMesh};
+use hexdel_io::MeshData;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -18,8 +20,10 @@ const SHOWN: usize = 10;
 /// Check a mesh: angles, Delaunay, topology, input points and segments
 #[derive(clap::Args)]
 #[command(after_help = "\
-    The default bounds are those of `hexdel mesh`. The Delaunay property and\n\
-    orientations are decided exactly. Exits with 1 if the mesh does not hold.\n\n\
+    The default bounds are those that the file says the mesh was made to keep:\n\
+    .ele, .vtu, .msh, .json and .ron of `hexdel mesh` do. Without any, angles are\n\
+    told and the mesh fails for what no Delaunay mesh may be. The Delaunay property\n\
+    and orientations are decided exactly. Exits with 1 if the mesh does not hold.\n\n\
     With segments in the input each must be a union of edges, unless it lies in\n\
     a hole or outside; corners narrower than the smallest angle are exempt; holes\n\
     may be where they like.\n\n\
@@ -32,12 +36,12 @@ pub(crate) struct Args {
     /// File of points that must be vertices, bit for bit, and of segments
     #[arg(long)]
     input: Option<PathBuf>,
-    /// Smallest angle allowed, degrees [default: 43.8978; 30 with segments]
+    /// Smallest angle allowed, degrees [default: what the mesh was made to keep]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     min_angle: Option<f64>,
-    /// The largest angle allowed, degrees
-    #[arg(long, value_name = "B", default_value_t = AngleBounds::EXTENDED.max_deg(), allow_negative_numbers = true)]
-    max_angle: f64,
+    /// Largest angle allowed, degrees [default: likewise; 90 with --min-angle]
+    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    max_angle: Option<f64>,
     #[command(flatten)]
     formats: Formats,
     /// Print JSON
@@ -55,9 +59,6 @@ struct Findings<'a> {
     of_graph: Option<&'a OfGraph>,
 }
 
-/// The smallest angle where there are segments.
-const LEAST_WITH_SEGMENTS: f64 = 30.0;
-
 /// Violations that JSON has.
 const LISTED: usize = 100;
 
@@ -67,36 +68,97 @@ pub(crate) fn run(args: &Args) -> Outcome {
     let of_input = if is_stream(&args.mesh) { Formats::default() } else { args.formats.clone() };
     let input = args.input.as_deref().map(|path| read_graph(path, &of_input)).transpose()?;
     let input = input.map(|file| file.pslg);
-    let mesh = read_mesh(&args.mesh, &args.formats)?;
+    let MeshData { mesh, promised, .. } = read_mesh_data(&args.mesh, &args.formats)?;
     let graph = input.as_ref().filter(|input| !input.segments.is_empty());
-    let usual = if graph.is_some() { LEAST_WITH_SEGMENTS } else { AngleBounds::EXTENDED.min_deg() };
+    let asked = args.asked()?;
+    let known = asked.or(promised.as_ref().map(|promised| promised.near));
     let options = CertifyOptions {
-        bounds: AngleBounds::new(args.min_angle.unwrap_or(usual), args.max_angle)?,
+        bounds: known.map_or(AngleBounds::new(0.0, 180.0), Ok)?,
         inputs: input.as_ref().map(|input| input.points.as_slice()),
-        require_disk: graph.is_none(),
+        require_disk: false,
         // Which of them are exempt remains to be seen.
-        max_violations: if graph.is_some() { usize::MAX } else { LISTED },
+        max_violations: usize::MAX,
         ..CertifyOptions::default()
     };
     let mut certificate = certify(&mesh, &options);
-    let of_graph = graph.map(|graph| OfGraph::new(&mesh, graph, &mut certificate));
+    // Without the input the file is believed.
+    let promised = promised.filter(|_| asked.is_none());
+    let believed = promised.as_ref().filter(|_| graph.is_none()).map_or(&[][..], |p| &p.exempt);
+    let exempt = excuse(&mut certificate, &mesh, believed);
+    let of_graph = graph.map(|graph| OfGraph::new(&mesh, graph, promised.as_ref(), &mut certificate));
     certificate.violations.truncate(LISTED);
-    // An empty mesh has no fault, but is no disk: it does not hold.
-    let holds = of_graph.as_ref().map_or(certificate.holds(), |of_graph| of_graph.holds(&certificate));
+    let found =
+        Found { certificate, of_graph, exempt, has_bounds: known.is_some(), has_input: input.is_some() };
+    let holds = found.holds();
     let text = if args.json {
-        let findings = Findings { holds, certificate: &certificate, of_graph: of_graph.as_ref() };
+        let findings = Findings { holds, certificate: &found.certificate, of_graph: found.of_graph.as_ref() };
         serde_json::to_string_pretty(&findings)? + "\n"
     } else {
-        readable(&args.mesh.display().to_string(), &certificate, of_graph.as_ref(), holds)
+        readable(&args.mesh.display().to_string(), &found)
     };
     print(&text)?;
     Ok(if holds { Verdict::Holds } else { Verdict::Fails })
 }
 
+impl Args {
+    /// The bounds asked for, if any are.
+    fn asked(&self) -> Result<Option<AngleBounds>, BoundsError> {
+        if self.min_angle.is_none() && self.max_angle.is_none() {
+            return Ok(None);
+        }
+        let least = self.min_angle.unwrap_or(0.0);
+        AngleBounds::new(least, self.max_angle.unwrap_or(AngleBounds::EXTENDED.max_deg())).map(Some)
+    }
+}
+
+/// Takes triangles below the bound out of the certificate that their file says are
+/// exempt. How many there are.
+fn excuse(certificate: &mut Certificate, mesh: &TriMesh, exempt: &[u32]) -> usize {
+    let listed: BTreeSet<usize> = exempt.iter().map(|&t| t as usize).collect();
+    let before = certificate.violations.len();
+    let most = certificate.bounds.max_deg() + ANGLE_TOLERANCE_DEG;
+    certificate.violations.retain(|violation| match *violation {
+        Violation::AngleBelow { triangle, .. } => {
+            let angles = quality::angles_deg(mesh.corners(triangle));
+            !listed.contains(&triangle.index()) || angles.into_iter().any(|a| a > most)
+        }
+        _ => true,
+    });
+    let excused = before - certificate.violations.len();
+    certificate.out_of_bounds -= excused;
+    excused
+}
+
+/// All that was found.
+struct Found {
+    certificate: Certificate,
+    of_graph: Option<OfGraph>,
+    /// Triangles that are exempt because the file says so.
+    exempt: usize,
+    /// Whether angles are held against any bounds.
+    has_bounds: bool,
+    has_input: bool,
+}
+
+impl Found {
+    /// An empty mesh has no fault, but is none: it does not hold.
+    fn holds(&self) -> bool {
+        let c = &self.certificate;
+        let broken =
+            c.malformed + c.not_finite + c.not_counter_clockwise + c.repeated_edges + c.unused_vertices;
+        broken + c.out_of_bounds == 0
+            && c.triangles > 0
+            && c.delaunay
+            && c.inputs_kept == c.inputs
+            && self.of_graph.as_ref().is_none_or(OfGraph::holds)
+    }
+}
+
 /// One line per finding, then the first violations.
-fn readable(name: &str, c: &Certificate, of_graph: Option<&OfGraph>, holds: bool) -> String {
+fn readable(name: &str, found: &Found) -> String {
+    let c = &found.certificate;
     let mut text = format!("{name}: {} vertices, {} triangles\n", c.vertices, c.triangles);
-    for (good, finding) in findings(c, of_graph) {
+    for (good, finding) in findings(found) {
         // Writing to a string does not fail.
         let _ = writeln!(text, "  {}  {finding}", if good { "ok  " } else { "FAIL" });
     }
@@ -106,24 +168,32 @@ fn readable(name: &str, c: &Certificate, of_graph: Option<&OfGraph>, holds: bool
         c.shortest_edge, c.max_aspect_ratio
     );
     let mut violations: Vec<String> = c.violations.iter().map(describe).collect();
-    violations.extend(of_graph.iter().flat_map(|of_graph| of_graph.describe()));
+    violations.extend(found.of_graph.iter().flat_map(OfGraph::describe));
     for violation in violations.iter().take(SHOWN) {
         let _ = writeln!(text, "  - {violation}");
     }
     if violations.len() > SHOWN {
         let _ = writeln!(text, "  - and more");
     }
-    let _ = writeln!(text, "{}", if holds { "holds" } else { "does not hold" });
+    if !found.has_input {
+        let _ = writeln!(text, "  --input FILE would tell whether its points and segments are in the mesh");
+    }
+    let _ = writeln!(text, "{}", if found.holds() { "holds" } else { "does not hold" });
     text
 }
 
 /// What was asked for, each with whether it is so.
-fn findings(c: &Certificate, of_graph: Option<&OfGraph>) -> Vec<(bool, String)> {
+fn findings(found: &Found) -> Vec<(bool, String)> {
+    let c = &found.certificate;
     let broken = c.malformed + c.not_finite + c.not_counter_clockwise;
     // A triangle the wrong way round has negative angles.
     let beyond = c.out_of_bounds + c.not_counter_clockwise;
     let angles = format!("angles {:.4} to {:.4}", c.min_angle_deg, c.max_angle_deg);
-    let bounds = format!("{:.4} to {:.4} degrees", c.bounds.min_deg(), c.bounds.max_deg());
+    let bounds = if found.has_bounds {
+        format!("{:.4} to {:.4} degrees", c.bounds.min_deg(), c.bounds.max_deg())
+    } else {
+        "0 to 180 degrees: no bounds are known, --min-angle asks for some".to_owned()
+    };
     let mut findings = vec![
         finding(
             beyond == 0,
@@ -136,10 +206,15 @@ fn findings(c: &Certificate, of_graph: Option<&OfGraph>) -> Vec<(bool, String)> 
             format!("{broken} triangles flat, clockwise or broken"),
         ),
         finding(c.delaunay, "Delaunay", format!("not Delaunay: {} edges", c.non_delaunay_edges)),
+        topology(c),
     ];
-    match of_graph {
-        Some(of_graph) => findings.extend(of_graph.findings(c)),
-        None => findings.extend(topology(c)),
+    if let Some(of_graph) = &found.of_graph {
+        findings.extend(of_graph.findings());
+    }
+    if found.exempt > 0 {
+        let n = found.exempt;
+        findings
+            .push((true, format!("{n} triangles exempt, the file says, in corners narrower than the bound")));
     }
     if c.rounding_limited > 0 {
         let excess = c.worst_rounding_excess_deg;
@@ -156,17 +231,19 @@ fn findings(c: &Certificate, of_graph: Option<&OfGraph>) -> Vec<(bool, String)> 
     findings
 }
 
-/// Whether the mesh is one disk.
-fn topology(c: &Certificate) -> [(bool, String); 2] {
-    let manifold = format!(
-        "not manifold: {} edges repeated, {} vertices branching, {} unused",
-        c.repeated_edges, c.branching_vertices, c.unused_vertices
-    );
-    let disk = format!(
-        "not one disk: {} boundary loops, Euler characteristic {}",
-        c.boundary_loops, c.euler_characteristic
-    );
-    [finding(c.manifold, "manifold", manifold), finding(c.disk, "one disk", disk)]
+/// How the triangles hang together.
+fn topology(c: &Certificate) -> (bool, String) {
+    let sound = c.repeated_edges + c.unused_vertices == 0 && c.triangles > 0;
+    let shape = if c.disk {
+        "one disk".to_owned()
+    } else {
+        format!("{} boundary loops, Euler characteristic {}", c.boundary_loops, c.euler_characteristic)
+    };
+    let faults = match c.triangles {
+        0 => "no triangles".to_owned(),
+        _ => format!("{} edges repeated, {} vertices unused", c.repeated_edges, c.unused_vertices),
+    };
+    finding(sound, shape, faults)
 }
 
 fn finding(good: bool, yes: impl Into<String>, no: impl Into<String>) -> (bool, String) {

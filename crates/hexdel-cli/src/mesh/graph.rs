@@ -6,8 +6,8 @@ use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::triangle::Numbered;
 use hexdel::pslg::violations;
-use hexdel::{AngleBounds, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
-use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile};
+use hexdel::{AngleBounds, Domain, Mesher, Pslg, PslgReport, PslgTriangulation, SegmentMethod};
+use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile, Promised, PromisedDomain};
 use std::fmt::{Display, Write as _};
 
 /// Items of a list that are shown; the report has all.
@@ -85,6 +85,10 @@ impl Finished<'_> {
         if let Some(regions) = &regions {
             view = view.with_regions(regions);
         }
+        let promised = promised(made);
+        if let Some(promised) = &promised {
+            view = view.with_promised(promised);
+        }
         write(outputs, (&view, &made.mesh), &Report::new(Some(&report), self.input))?;
         if !self.quiet {
             outputs.tell(&summary(made, &report, self.input))?;
@@ -98,6 +102,19 @@ impl Finished<'_> {
             (false, false) => Verdict::Fails,
         })
     }
+}
+
+/// What the mesh was made to keep; the paper's way promises nothing near segments.
+fn promised(made: &PslgTriangulation) -> Option<Promised> {
+    let domain = match made.domain {
+        Domain::Hull => PromisedDomain::Hull,
+        Domain::Box => PromisedDomain::Box,
+        Domain::Inside => PromisedDomain::Inside,
+        _ => PromisedDomain::Hexagon,
+    };
+    let exempt = made.exempt.iter().map(|e| e.triangle.index() as u32).collect();
+    let promised = Promised { near: made.certificate.bounds, far: made.far_bounds, domain, exempt };
+    (made.method != SegmentMethod::Paper).then_some(promised)
 }
 
 fn mesher(args: &Args) -> Result<Mesher, Failure> {

@@ -6,7 +6,7 @@ use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
 use hexdel::{Size, Triangulation};
-use hexdel_io::{ColourBy, MeshView, Overlay, PointFile};
+use hexdel_io::{ColourBy, MeshView, Overlay, PointFile, Promised, PromisedDomain};
 use std::fmt::Write as _;
 
 /// Meshes points, writes the mesh and says what it is like.
@@ -47,8 +47,12 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     if let Some(groups) = &groups {
         picture.colour_by = ColourBy::Groups(groups);
     }
+    let bounds = made.certificate.bounds;
+    let domain = PromisedDomain::Hexagon;
+    let promised = Promised { near: bounds, far: bounds, domain, exempt: Vec::new() };
     let view = MeshView::new(&made.mesh)
         .with_input_indices(&inputs)
+        .with_promised(&promised)
         .with_certificate(&made.certificate)
         .with_picture(picture);
     // The dual in it takes more memory than the mesh.

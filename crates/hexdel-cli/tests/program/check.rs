@@ -33,6 +33,68 @@ fn bounds_are_what_is_asked_for() {
     }
 }
 
+/// Bounds and exempt triangles travel with the mesh in the formats that carry them.
+#[test]
+fn what_the_program_wrote_passes() {
+    let bench = Bench::new();
+    // A corner of 16.7 degrees.
+    bench.file("sliver.poly", "3 2 0 0\n0 0 0\n1 1 0\n2 1 0.3\n3 0\n0 0 1\n1 1 2\n2 2 0\n0\n");
+    let outputs = "-o m.ele -o m.vtu -o m.msh -o m.msh2 -o m.json -o m.ron -o m.off";
+    bench.run(&format!("mesh sliver.poly -q {outputs}")).fine();
+    for mesh in ["m.ele", "m.vtu", "m.msh", "m.msh2", "m.json", "m.ron"] {
+        let run = bench.run(&format!("check {mesh}"));
+        run.fine();
+        assert!(run.out.contains("within 30.0000 to 90.0000 degrees"), "{}", run.out);
+        assert!(run.out.contains("1 triangles exempt, the file says"), "{}", run.out);
+        assert!(run.out.contains("--input FILE would tell"), "{}", run.out);
+        let run = bench.run(&format!("check {mesh} --input sliver.poly"));
+        run.fine();
+        assert!(run.out.contains("1 triangles exempt in corners"), "{}", run.out);
+        assert_eq!(bench.run(&format!("check {mesh} --min-angle 30")).code, 1, "{mesh}");
+    }
+    // This format says nothing: what is found is told.
+    let run = bench.run("check m.off");
+    run.fine();
+    assert!(run.out.contains("no bounds are known"), "{}", run.out);
+    assert_eq!(bench.run("check m.off --min-angle 30").code, 1);
+    bench.run("check m.off --min-angle 30 --input sliver.poly").fine();
+}
+
+/// An exempt triangle is so for its lower bound only, and only if the file says so.
+#[test]
+fn exempt_triangles_are_those_listed() {
+    let promise = |exempt: &str| {
+        format!(
+            "2 3 0\n0 0 1 2\n1 0 2 3\n# hexdel: angles 46 90 far 46 90 domain inside\n# hexdel: exempt{exempt}\n"
+        )
+    };
+    check(&promise(" 0 1"), "").fine();
+    let run = check(&promise(" 1"), "");
+    assert!(run.code == 1 && run.out.contains("1 triangles not within 46.0000 to 90.0000"), "{}", run.out);
+    let above = promise(" 0 1").replace("46 90", "40 80");
+    assert_eq!(check(&above, "").code, 1);
+}
+
+/// Two edges from points and segments other bounds are promised.
+#[test]
+fn the_far_bound_is_checked_with_the_input() {
+    let bench = Bench::new();
+    bench.file("square.poly", "4 2 0 0\n0 0 0\n1 9 0\n2 9 9\n3 0 9\n4 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n0\n");
+    bench.run("mesh square.poly -q -o m.ele -a 0.5").fine();
+    let run = bench.run("check m.ele --input square.poly");
+    run.fine();
+    assert!(run.out.contains("two edges from points and segments, within 43.8978 to 90.0000"), "{}", run.out);
+    let strict = String::from_utf8(bench.read("m.ele")).unwrap().replace("far 43.8978 90", "far 59 61");
+    bench.file("m.ele", &strict);
+    let run = bench.run("check m.ele --input square.poly");
+    assert!(
+        run.code == 1 && run.out.contains("two edges from points and segments not within"),
+        "{}",
+        run.out
+    );
+    bench.run("check m.ele").fine();
+}
+
 #[test]
 fn whatever_is_wrong_with_a_mesh_is_told() {
     for (elements, words) in [
@@ -40,7 +102,7 @@ fn whatever_is_wrong_with_a_mesh_is_told() {
         ("2 3 0\n0 0 1 1\n1 0 2 3\n", "vertex 1 twice"),
         ("2 3 0\n0 0 1 2\n1 0 1 3\n", "again"),
         ("1 3 0\n0 0 1 2\n", "vertex 3: in no triangle"),
-        ("0 3 0\n", "not one disk"),
+        ("0 3 0\n", "no triangles"),
     ] {
         let run = check(elements, "");
         assert_eq!((run.code, run.err.as_str()), (1, ""), "{elements}");

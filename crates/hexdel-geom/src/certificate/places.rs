@@ -107,8 +107,9 @@ impl PlaceCheck {
     }
 }
 
-/// For each vertex whether it is one of the points, bit for bit, an end of one of
-/// the edges, or, if `with_boundary`, on the boundary of the mesh.
+/// For each vertex whether it is one of the points, bit for bit, a neighbour of one of
+/// `centres`, an end of one of the edges, or, if `with_boundary`, on the boundary of the
+/// mesh.
 ///
 /// # Complexity
 ///
@@ -116,12 +117,15 @@ impl PlaceCheck {
 pub fn features(
     mesh: &TriMesh,
     points: &[DVec2],
+    centres: &[DVec2],
     edges: &[[VertexId; 2]],
     with_boundary: bool,
 ) -> Vec<bool> {
-    let keys: FxHashSet<[u64; 2]> = points.iter().map(|&p| coordinate_key(p)).collect();
-    let mut features: Vec<bool> =
-        mesh.vertices.iter().map(|&v| keys.contains(&coordinate_key(v))).collect();
+    let mut features = at_points(mesh, points);
+    if !centres.is_empty() {
+        let beside = beside(mesh, &at_points(mesh, centres));
+        features.iter_mut().zip(beside).for_each(|(feature, beside)| *feature |= beside);
+    }
     let mut mark = |v: VertexId| {
         if let Some(feature) = features.get_mut(v.index()) {
             *feature = true;
@@ -132,6 +136,12 @@ pub fn features(
         boundary(mesh).into_iter().flatten().for_each(mark);
     }
     features
+}
+
+/// For each vertex whether it is at one of the points.
+fn at_points(mesh: &TriMesh, points: &[DVec2]) -> Vec<bool> {
+    let keys: FxHashSet<[u64; 2]> = points.iter().map(|&p| coordinate_key(p)).collect();
+    mesh.vertices.iter().map(|&v| keys.contains(&coordinate_key(v))).collect()
 }
 
 /// The directed edges without a partner.
@@ -181,7 +191,9 @@ pub fn check_promises(mesh: &TriMesh, promises: &Promises<'_>) -> PlaceCheck {
                 let triangle = TriangleId::new(chunk * CHUNK + i);
                 let Some(corners) = corners(mesh, v) else { continue };
                 let mut broken = Vec::new();
-                if let Some((bounds, _)) = far.as_ref().filter(|(_, beside)| v.iter().all(|v| !beside[v.index()])) {
+                if let Some((bounds, _)) =
+                    far.as_ref().filter(|(_, beside)| v.iter().all(|v| !beside[v.index()]))
+                {
                     let fit = check_angles(corners, *bounds);
                     if let Fit::Outside { corner, angle_deg, .. } = fit {
                         broken.push(Promise::FarAngle { corner, angle_deg });
@@ -190,7 +202,11 @@ pub fn check_promises(mesh: &TriMesh, promises: &Promises<'_>) -> PlaceCheck {
                 }
                 broken.extend(promises.max_area.and_then(|limit| excess_area(corners, triangle, limit)));
                 broken.extend(promises.max_edge.and_then(|limit| excess_edge(corners, limit)));
-                part.broken.extend(broken.into_iter().map(|promise| BrokenPromise { triangle, corners, promise }));
+                part.broken.extend(broken.into_iter().map(|promise| BrokenPromise {
+                    triangle,
+                    corners,
+                    promise,
+                }));
             }
             part
         })
@@ -252,9 +268,8 @@ fn excess_area(
 }
 
 fn excess_edge([a, b, c]: [DVec2; 3], at: &(dyn Fn(DVec2) -> f64 + Sync)) -> Option<Promise> {
-    let sides = [[a, b], [b, c], [c, a]].map(|[p, q]| {
-        (p.distance(q), at(p).min(at(q)).min(at(0.5 * (p + q))))
-    });
+    let sides =
+        [[a, b], [b, c], [c, a]].map(|[p, q]| (p.distance(q), at(p).min(at(q)).min(at(0.5 * (p + q)))));
     let long = sides.into_iter().filter(|(length, limit)| length > &(limit * (1.0 + SIZE_TOLERANCE)));
     let most = long.max_by(|s, t| (s.0 / s.1).total_cmp(&(t.0 / t.1)));
     most.map(|(length, limit)| Promise::Edge { length, limit })
@@ -280,7 +295,7 @@ mod tests {
     }
 
     fn far(mesh: &TriMesh, points: &[DVec2], least: f64) -> PlaceCheck {
-        let features = features(mesh, points, &[], false);
+        let features = features(mesh, points, &[], &[], false);
         let bounds = AngleBounds::new(least, 90.0).unwrap();
         check_promises(mesh, &Promises { far: Some((bounds, &features)), ..Promises::default() })
     }
@@ -303,11 +318,15 @@ mod tests {
     fn edges_and_the_boundary_are_features_if_they_are_said_to_be() {
         let mesh = strip(6, 0.5);
         let ends = [[10, 11].map(VertexId::new)];
-        let by_edge = features(&mesh, &[], &ends, false);
+        let by_edge = features(&mesh, &[], &[], &ends, false);
         assert_eq!(by_edge.iter().filter(|f| **f).count(), 2);
         assert!(by_edge[10] && by_edge[11]);
+        // The neighbours of vertex 0.
+        let around = features(&mesh, &[], &[DVec2::ZERO], &[], false);
+        assert_eq!(around.iter().filter(|f| **f).count(), 3);
+        assert!(around[0] && around[1] && around[2]);
         // Every vertex of a strip is on its boundary.
-        assert!(features(&mesh, &[], &[], true).into_iter().all(|f| f));
+        assert!(features(&mesh, &[], &[], &[], true).into_iter().all(|f| f));
     }
 
     #[test]
@@ -335,11 +354,16 @@ mod tests {
     fn broken_meshes_are_no_reason_to_panic() {
         let mesh = TriMesh {
             vertices: vec![DVec2::ZERO, DVec2::new(f64::NAN, 0.0), DVec2::Y],
-            triangles: vec![[0, 1, 7].map(VertexId::new), [0, 0, 1].map(VertexId::new), [0, 1, 2].map(VertexId::new)],
+            triangles: vec![
+                [0, 1, 7].map(VertexId::new),
+                [0, 0, 1].map(VertexId::new),
+                [0, 1, 2].map(VertexId::new),
+            ],
         };
-        let features = features(&mesh, &[DVec2::ZERO], &[[9, 1].map(VertexId::new)], true);
+        let features = features(&mesh, &[DVec2::ZERO], &[], &[[9, 1].map(VertexId::new)], true);
         let bounds = AngleBounds::EXTENDED;
-        let found = check_promises(&mesh, &Promises { far: Some((bounds, &features)), ..Promises::default() });
+        let found =
+            check_promises(&mesh, &Promises { far: Some((bounds, &features)), ..Promises::default() });
         assert!(found.holds() && found.far == 0);
     }
 }

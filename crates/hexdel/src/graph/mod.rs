@@ -54,7 +54,7 @@ impl Domain {
         }
     }
 
-    fn extent(self) -> Extent {
+    pub(super) fn extent(self) -> Extent {
         match self {
             Self::Hexagon => Extent::Hexagon,
             Self::Hull => Extent::Hull,

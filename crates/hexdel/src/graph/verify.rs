@@ -9,7 +9,7 @@ use hexdel_geom::{
     smallest_enclosing_circle,
 };
 use hexdel_optimize::Sizing;
-use hexdel_pslg::{Exception, Options, PslgMesh, Reason, Validated};
+use hexdel_pslg::{Exception, Options, PslgMesh, Reason, Validated, fan_points};
 use std::collections::BTreeSet;
 
 /// Lists every triangle that the certificate finds out of bounds and the mesher
@@ -55,7 +55,10 @@ pub(super) fn places(
 ) -> PlaceCheck {
     let Meshed { graph, domain, size, .. } = *input;
     let mesh = &made.mesh;
-    let features = features(mesh, &graph.points, &segments.edges, domain != Domain::Hexagon);
+    // The vertices around a point with a fan count as points do.
+    let fans = fan_points(input.validated, domain.extent(), options.near);
+    let fans: Vec<DVec2> = fans.into_iter().map(|p| input.validated.pslg().points[p as usize]).collect();
+    let features = features(mesh, &graph.points, &fans, &segments.edges, domain != Domain::Hexagon);
     let max_area = areas(mesh, segments, input, options);
     let max_edge = |p: DVec2| size.map_or(f64::INFINITY, |size| size.at(p));
     let promises = Promises {

@@ -7,9 +7,9 @@ use hexdel::geom::{CertifyOptions, certify};
 use hexdel::{DVec2, Method, Pslg, TriMesh, Triangulation, VertexId};
 use std::path::{Path, PathBuf};
 
-/// Both methods, with the names they have in snapshots.
-pub(crate) const METHODS: [(Method, &str); 2] =
-    [(Method::Templates, "templates"), (Method::Simple, "simple")];
+/// All methods, with the names they have in snapshots.
+pub(crate) const METHODS: [(Method, &str); 3] =
+    [(Method::Templates, "templates"), (Method::Simple, "simple"), (Method::Compact, "compact")];
 
 /// `R / (2 rho)` of the right triangle with the smallest angle allowed, rounded
 /// up (paper, section 6.2).
@@ -89,8 +89,8 @@ pub(crate) fn closest_distance(points: &[DVec2]) -> Option<f64> {
 #[track_caller]
 pub(crate) fn hold(made: &Triangulation, points: &[DVec2]) {
     let (bounds, aspect) = match made.method {
-        Method::Templates => (made.method.bounds(), ASPECT_TEMPLATES),
-        _ => (made.method.bounds(), ASPECT_SIMPLE),
+        Method::Simple => (made.method.bounds(), ASPECT_SIMPLE),
+        _ => (made.method.bounds(), ASPECT_TEMPLATES),
     };
     let options = CertifyOptions { bounds, inputs: Some(points), ..CertifyOptions::default() };
     let certificate = certify(&made.mesh, &options);
@@ -104,7 +104,8 @@ pub(crate) fn hold(made: &Triangulation, points: &[DVec2]) {
     assert!(slack < 0.028, "rounding takes {slack} degrees");
     // Per degree past a bound the ratio grows by less than a tenth.
     assert!(certificate.max_aspect_ratio <= aspect + 0.1 * slack, "{}", certificate.max_aspect_ratio);
-    if let Some(distance) = closest_distance(points) {
+    // The compact method promises nothing of lengths.
+    if let Some(distance) = closest_distance(points).filter(|_| made.method != Method::Compact) {
         let shortest = distance * 7.0_f64.sqrt() / (12.0 * 3.0_f64.sqrt());
         assert!(certificate.shortest_edge >= shortest * (1.0 - 1e-9), "{}", certificate.shortest_edge);
     }

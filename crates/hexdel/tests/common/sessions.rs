@@ -3,6 +3,7 @@
 use hexdel::optimize::live::Delta;
 use hexdel::{DVec2, Outcome, Session, SessionError, SessionMesh, TemplateSession, VertexId};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What tests ask of sessions of both kinds.
 pub(crate) trait Calls {
@@ -65,6 +66,30 @@ impl Copy {
         for &(t, corners) in &delta.triangles_added {
             assert!(self.triangles.insert(t, corners).is_none(), "triangle {t} was there");
         }
+    }
+}
+
+/// Counts what random calls come to. A test in which all are refused tests nothing.
+pub(crate) struct Tally {
+    done: AtomicUsize,
+    refused: AtomicUsize,
+}
+
+/// Calls from which on a share is no chance.
+const MANY_CALLS: usize = 40;
+
+impl Tally {
+    pub(crate) const fn new() -> Self {
+        Self { done: AtomicUsize::new(0), refused: AtomicUsize::new(0) }
+    }
+
+    /// Notes a call; half of all calls so far must have been done.
+    #[track_caller]
+    pub(crate) fn note<T>(&self, call: &Result<T, SessionError>) {
+        let count = if call.is_ok() { &self.done } else { &self.refused };
+        count.fetch_add(1, Ordering::Relaxed);
+        let [done, refused] = [&self.done, &self.refused].map(|n| n.load(Ordering::Relaxed));
+        assert!(done + refused < MANY_CALLS || done >= refused, "{done} calls done, {refused} refused");
     }
 }
 
