@@ -242,23 +242,28 @@ impl<'w, 'a> Msh<'w, 'a> {
         if let Some(inputs) = view.input_indices {
             self.table("input_index", inputs.iter().map(|i| i.map_or(-1.0, f64::from)))?;
         }
-        if let Some(exempt) = view.promised.map(|p| &p.exempt).filter(|exempt| !exempt.is_empty()) {
-            let edges = view.marked_edges.map_or(0, <[_]>::len);
-            let rows = exempt.iter().map(|&t| (edges + t as usize + 1, 1.0));
-            self.rows("Element", "exempt", exempt.len(), rows)?;
+        if let Some(promised) = view.promised.filter(|promised| !promised.exempt.is_empty()) {
+            let exempt: BTreeSet<u32> = promised.exempt.iter().copied().collect();
+            self.of_triangles("exempt", |t| f64::from(u8::from(exempt.contains(&(t as u32)))))?;
         }
         if let Some(regions) = view.regions
             && regions.iter().any(|&r| f64::from(group(r)) != r)
         {
-            // Some readers take the rows for the elements in the order of the file.
-            let edges = view.marked_edges.map_or(0, <[_]>::len);
-            let order = sorted(regions.len(), self.regions.len(), |t| self.region(t));
-            let listed = (0..regions.len()).map(|i| order.as_ref().map_or(i, |order| order[i] as usize));
-            let of_edges = (1..=edges).map(|tag| (tag, 0.0));
-            let of_triangles = listed.map(|t| (edges + t + 1, regions[t]));
-            self.rows("Element", "region", edges + regions.len(), of_edges.chain(of_triangles))?;
+            self.of_triangles("region", |t| regions[t])?;
         }
         self.text.finish()
+    }
+
+    /// Data of triangles, a number for each; that of edges is 0.
+    fn of_triangles(&mut self, name: &str, value: impl Fn(usize) -> f64) -> io::Result<()> {
+        let edges = self.view.marked_edges.map_or(0, <[_]>::len);
+        let count = self.view.mesh.triangles.len();
+        // Some readers take the rows for the elements in the order of the file.
+        let order = sorted(count, self.regions.len(), |t| self.region(t));
+        let listed = (0..count).map(|i| order.as_ref().map_or(i, |order| order[i] as usize));
+        let of_edges = (1..=edges).map(|tag| (tag, 0.0));
+        let of_triangles = listed.map(|t| (edges + t + 1, value(t)));
+        self.rows("Element", name, edges + count, of_edges.chain(of_triangles))
     }
 
     /// Data of vertices, a number for each.

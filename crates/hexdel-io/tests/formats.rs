@@ -3,10 +3,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use hexdel_geom::{DVec2, Pslg, Region, TriMesh, VertexId};
+use hexdel_geom::{AngleBounds, DVec2, Pslg, Region, TriMesh, VertexId};
 use hexdel_io::{
-    MarkedEdge, MeshData, MeshFormat, PointFormat, ReadError, WriteError, read_mesh_data, read_mesh_from,
-    read_points, read_points_from, write_mesh, write_mesh_to, write_points, write_points_to,
+    MarkedEdge, MeshData, MeshFormat, PointFormat, Promised, PromisedDomain, ReadError, WriteError,
+    read_mesh_data, read_mesh_from, read_points, read_points_from, write_mesh, write_mesh_to, write_points,
+    write_points_to,
 };
 use proptest::prelude::*;
 
@@ -14,9 +15,9 @@ use proptest::prelude::*;
 type Carries = &'static [&'static str];
 
 const NOTHING: Carries = &[];
-const NO_EDGES: Carries = &["inputs", "markers", "regions"];
+const NO_EDGES: Carries = &["inputs", "markers", "regions", "promised"];
 const NO_INPUTS: Carries = &["markers", "regions", "edges"];
-const ALL: Carries = &["inputs", "markers", "regions", "edges"];
+const ALL: Carries = &["inputs", "markers", "regions", "edges", "promised"];
 
 /// Every format that is written and read, by the extension it has here.
 const MESHES: [(MeshFormat, &str, Carries); 9] = [
@@ -61,6 +62,9 @@ fn sample(integers: bool) -> MeshData {
     data.regions = Some(if integers { regions.to_vec() } else { regions.map(|r| r + 0.1).to_vec() });
     let edge = |a, b, marker| MarkedEdge { ends: [VertexId::new(a), VertexId::new(b)], marker };
     data.marked_edges = Some(vec![edge(3, 1, 4), edge(0, 1, 0), edge(2, 0, -3), edge(6, 7, 4)]);
+    let near = AngleBounds::new(30.0, 90.0).unwrap();
+    let (far, domain) = (AngleBounds::EXTENDED, PromisedDomain::Box);
+    data.promised = Some(Promised { near, far, domain, exempt: vec![1, 4] });
     data
 }
 
@@ -70,6 +74,7 @@ fn carried(data: &MeshData, carries: Carries) -> MeshData {
     left.input_indices.take_if(|_| !carries.contains(&"inputs"));
     left.vertex_markers.take_if(|_| !carries.contains(&"markers"));
     left.regions.take_if(|_| !carries.contains(&"regions"));
+    left.promised.take_if(|_| !carries.contains(&"promised"));
     left.marked_edges.take_if(|_| !carries.contains(&"edges"));
     left
 }

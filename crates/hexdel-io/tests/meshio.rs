@@ -12,8 +12,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-use hexdel_geom::{DVec2, TriMesh, VertexId};
-use hexdel_io::{MarkedEdge, MeshData, write_mesh};
+use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
+use hexdel_io::{MarkedEdge, MeshData, Promised, PromisedDomain, write_mesh};
 
 /// What is installed. A new version must not break an old commit.
 const PACKAGES: [&str; 2] = ["meshio==5.3.5", "numpy<3"];
@@ -114,5 +114,8 @@ fn sample(integers: bool) -> MeshData {
     data.regions = Some((0..data.mesh.triangles.len()).map(region).collect());
     let edge = |i: usize| MarkedEdge { ends: [i, i + 1].map(VertexId::new), marker: (i * i % 3) as i32 };
     data.marked_edges = Some((0..N - 1).map(edge).collect());
+    let near = AngleBounds::new(30.0, 90.0).unwrap();
+    let (far, domain) = (AngleBounds::EXTENDED, PromisedDomain::Box);
+    data.promised = Some(Promised { near, far, domain, exempt: vec![1, 4] });
     data
 }

@@ -28,6 +28,7 @@ markers = numpy.array(expected["vertex_markers"])
 inputs = numpy.array([-1 if i is None else i for i in expected["input_indices"]])
 edges = numpy.array([edge["ends"] for edge in expected["marked_edges"]])
 edge_markers = numpy.array([edge["marker"] for edge in expected["marked_edges"]])
+exempt = numpy.isin(numpy.arange(len(triangles)), expected["promised"]["exempt"]).astype(float)
 integral = bool(numpy.all(regions == regions.astype(int)))
 
 
@@ -61,6 +62,8 @@ def vtu(path):
     same(mesh.point_data["marker"], markers, path)
     same(mesh.point_data["input_index"], inputs, path)
     same(mesh.cell_data["region"][0], regions, path)
+    same(mesh.field_data["hexdel_bounds"], [30, 90, 43.8978, 90], path)
+    same(mesh.field_data["hexdel_exempt"], expected["promised"]["exempt"], path)
     for name in ["min_angle", "max_angle"]:
         angles = mesh.cell_data[name][0]
         assert angles.shape == regions.shape and numpy.all((0 <= angles) & (angles <= 180)), path
@@ -86,6 +89,7 @@ def msh(path):
     same(physical, groups[order], path)
     if not integral:
         same(blocks(mesh, "triangle", "region")[1].ravel(), regions[order], path)
+    same(blocks(mesh, "triangle", "exempt")[1].ravel(), exempt[order], path)
     order = numpy.argsort(edge_markers, kind="stable")
     cells, physical = blocks(mesh, "line", "gmsh:physical")
     same(cells, edges[order], path)
@@ -94,7 +98,8 @@ def msh(path):
     same(mesh.point_data["input_index"].ravel(), inputs, path)
     names = {("marker", int(m)) for m in edge_markers if m != 0}
     names |= {("region", int(g)) for g in groups if g != 0}
-    assert set(mesh.field_data) == {f"{kind} {number}" for kind, number in names}, mesh.field_data
+    promised = {"hexdel: angles 30 90 far 43.8978 90 domain box"}
+    assert set(mesh.field_data) == {f"{kind} {number}" for kind, number in names} | promised, mesh.field_data
 
 
 def msh2(path):
@@ -106,7 +111,9 @@ def msh2(path):
     same_bits(numpy.array([[float(x) for x in row[1:]] for row in nodes]), path)
     tags = {row[0]: i for i, row in enumerate(nodes)}
     elements = {row[0]: row for row in map(str.split, section("Elements")[1:]) if row[1] == "2"}
-    order, found = zip(*(map(float, line.split()) for line in section("ElementData")[-len(elements) :]))
+    # The last of such sections.
+    end = len(lines) - 1 - lines[::-1].index("$EndElementData")
+    order, found = zip(*(map(float, line.split()) for line in lines[end - len(elements) : end]))
     cells = [[tags[corner] for corner in elements[str(int(i))][-3:]] for i in order]
     sort = lambda rows, values: sorted(zip(map(tuple, rows), values))
     assert sort(cells, found) == sort(triangles.tolist(), regions), path

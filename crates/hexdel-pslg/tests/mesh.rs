@@ -52,6 +52,39 @@ fn without_a_lower_bound_no_vertices_coincide() {
     assert!(made.certificate.min_angle_deg > 0.0);
 }
 
+/// A monitor that takes its time.
+struct Slow;
+
+impl Monitor for Slow {
+    fn progress(&self, _: Phase, _: u64, _: u64) {}
+
+    fn cancelled(&self) -> bool {
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        false
+    }
+}
+
+/// Where there is no time for a grid the input itself is what is triangulated.
+#[test]
+fn without_time_for_a_mesh_there_is_one_of_the_input_alone() {
+    let mut pslg = support::family("letter R", 3);
+    // The frame of points is no part of what segments enclose.
+    for (extent, points) in [(Extent::Hexagon, true), (Extent::Hull, true), (Extent::Inside, false)] {
+        if !points {
+            pslg.points.truncate(pslg.points.len() - 6);
+        }
+        let options = Options::new().extent(extent).budget(Some(std::time::Duration::ZERO));
+        let made = mesh(&validate(&pslg).unwrap(), &options, &Slow).unwrap();
+        assert!(made.budget_spent && !made.failed.is_empty(), "{extent:?}");
+        assert_eq!(support::check(&pslg, &made), Ok(()), "{extent:?}");
+        // Seven vertices more at most, on a disk with one hole at most.
+        let triangles = made.mesh.triangles.len();
+        assert!(triangles < 2 * (pslg.points.len() + 7), "{extent:?}: {triangles}");
+        let few = made.edges_of_segment.iter().all(|&n| n == 1);
+        assert!(few, "{extent:?}: {:?}", made.edges_of_segment);
+    }
+}
+
 /// Two edges from points and segments the bounds of the plain mesh hold, seen
 /// from outside: by the edges of the result alone.
 #[test]

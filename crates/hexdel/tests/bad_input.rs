@@ -6,7 +6,7 @@
 mod common;
 
 use hexdel::geom::PointsError;
-use hexdel::{AngleBounds, DVec2, Error, Mesher, Method, triangulate};
+use hexdel::{AngleBounds, DVec2, Error, Mesher, Method, Pslg, triangulate};
 
 /// The error of points that no method meshes, the same for all.
 fn refused(points: &[DVec2]) -> Error {
@@ -14,6 +14,21 @@ fn refused(points: &[DVec2]) -> Error {
     let (templates, simple) = (error(Method::Templates), error(Method::Simple));
     assert_eq!(templates.to_string(), simple.to_string());
     templates
+}
+
+/// By points and by graphs, with any method.
+#[test]
+fn bounds_that_no_graded_mesh_keeps() {
+    let points = [DVec2::ZERO, DVec2::X, DVec2::new(0.3, 0.8)];
+    for (min, max) in [(51.5, 90.0), (60.0, 60.0), (0.0, 71.9)] {
+        let asked = AngleBounds::new(min, max).unwrap();
+        let refused = Mesher::new().bounds(asked).triangulate(&points).unwrap_err();
+        assert_eq!(refused, Error::NoGrading { asked });
+        assert!(refused.to_string().contains("at most, the largest 72 at least"), "{refused}");
+        let graph = Pslg::from_points(points.to_vec());
+        let refused = Mesher::new().near_bounds(asked).triangulate_pslg(&graph).unwrap_err();
+        assert_eq!(refused, Error::NoGrading { asked });
+    }
 }
 
 #[test]

@@ -6,13 +6,14 @@
 mod common;
 
 use common::graph;
-use hexdel::geom::{Cancelled, check_segments, orient2d};
+use hexdel::geom::{Cancelled, Region, check_segments, orient2d};
 use hexdel::pslg::{Feature, PslgError, Reason, Repair, ValidateError};
 use hexdel::{
     AngleBounds, DVec2, Domain, Error, Mesher, Method, Monitor, Phase, Pslg, PslgTriangulation,
     SegmentMethod, TriangleId, triangulate_pslg,
 };
 use std::sync::Mutex;
+use std::time::Duration;
 
 fn area(made: &PslgTriangulation) -> f64 {
     let corners = (0..made.mesh.triangles.len()).map(|t| made.mesh.corners(TriangleId::new(t)));
@@ -39,6 +40,46 @@ fn hold(made: &PslgTriangulation) {
 
 fn edges(made: &PslgTriangulation) -> Vec<[u32; 2]> {
     made.edges.iter().map(|e| e.ends.map(|v| v.index() as u32)).collect()
+}
+
+/// Far bounds, areas by region and sizes are found out on the finished mesh.
+#[test]
+fn what_is_promised_by_place_is_certified() {
+    let corners = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (4.0, 0.0), (5.0, 9.0)];
+    let mut plate = Pslg::from_points(corners.map(DVec2::from).to_vec());
+    plate.segments = vec![[0, 4], [4, 1], [1, 2], [2, 5], [5, 3], [3, 0], [4, 5]];
+    let region = |x, max_area| Region { point: DVec2::new(x, 4.0), attribute: x, max_area };
+    plate.regions = vec![region(1.0, Some(0.2)), region(8.0, None)];
+    let made = Mesher::new().max_area(0.7).triangulate_pslg(&plate).unwrap();
+    hold(&made);
+    assert!(made.places.holds() && made.places.far > 0, "{:?}", made.places);
+    assert!(made.places.far_min_deg.unwrap() >= made.far_bounds.min_deg() - 1e-9);
+    for (t, region) in made.region_of_triangle.iter().enumerate() {
+        let [a, b, c] = made.mesh.corners(TriangleId::new(t));
+        let limit = if *region == Some(0) { 0.2 } else { 0.7 };
+        assert!(0.5 * (b - a).perp_dot(c - a) <= limit);
+    }
+    // Regions found anew in the mesh are those that the mesher tells.
+    let seeds: Vec<DVec2> = plate.regions.iter().map(|r| r.point).collect();
+    let edges = &made.segments.edges;
+    assert_eq!(hexdel::geom::segments::faces(&made.mesh, edges, &seeds), made.region_of_triangle);
+    assert_eq!(made.report().far_triangles, made.places.far);
+}
+
+/// Positions along a track with a centimetre of noise: the hull is a needle. Points and
+/// sides of it are in the mesh, with no budget left as well.
+#[test]
+fn a_hull_of_a_centimetre_by_a_kilometre() {
+    let noise = [0.005, 0.002, -0.009, -0.005, -0.001];
+    let at = |(i, y)| DVec2::new(500_000.0 + 250.0 * f64::from(i), 5_200_000.0 + y);
+    let track = Pslg::from_points((0..).zip(noise).map(at).collect());
+    let made = Mesher::new().domain(Domain::Hull).budget(Duration::ZERO).triangulate_pslg(&track).unwrap();
+    assert!(made.budget_spent && made.segments.missing.is_empty());
+    let c = &made.certificate;
+    let broken = c.not_counter_clockwise + c.malformed + c.repeated_edges + c.unused_vertices;
+    assert_eq!((broken, c.inputs_kept, c.inputs), (0, 5, 5));
+    let listed = made.failed.len() + made.exempt.len();
+    assert!(made.certificate.out_of_bounds <= listed && !made.holds());
 }
 
 #[test]
