@@ -251,7 +251,9 @@ fn beside(mesh: &TriMesh, features: &[bool]) -> Vec<bool> {
         let before = beside.clone();
         for v in mesh.triangles.iter().filter(|&&v| well_formed(v, before.len())) {
             if v.iter().any(|v| before[v.index()]) {
-                v.iter().for_each(|v| beside[v.index()] = true);
+                for v in v {
+                    beside[v.index()] = true;
+                }
             }
         }
     }
