@@ -20,10 +20,8 @@ const SHOWN: usize = 10;
 /// Check a mesh: angles, Delaunay, topology, input points and segments
 #[derive(clap::Args)]
 #[command(after_help = "\
-    The default bounds are those that the file says the mesh was made to keep:\n\
-    .ele, .vtu, .msh, .json and .ron of `hexdel mesh` do. Without any, angles are\n\
-    told and the mesh fails for what no Delaunay mesh may be. The Delaunay property\n\
-    and orientations are decided exactly. Exits with 1 if the mesh does not hold.\n\n\
+    By default angles are held to what the file says (.ele, .vtu, .msh, .json, .ron), else told.\n\
+    The Delaunay property and orientations are decided exactly. Exits with 1 if it does not hold.\n\n\
     With segments in the input each must be a union of edges, unless it lies in\n\
     a hole or outside; corners narrower than the smallest angle are exempt; holes\n\
     may be where they like.\n\n\
@@ -36,10 +34,10 @@ pub(crate) struct Args {
     /// File of points that must be vertices, bit for bit, and of segments
     #[arg(long)]
     input: Option<PathBuf>,
-    /// Smallest angle allowed, degrees [default: what the mesh was made to keep]
+    /// Smallest angle allowed, degrees [default: the file's]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     min_angle: Option<f64>,
-    /// Largest angle allowed, degrees [default: likewise; 90 with --min-angle]
+    /// Largest angle allowed, degrees [default: the file's; else 90]
     #[arg(long, value_name = "B", allow_negative_numbers = true)]
     max_angle: Option<f64>,
     #[command(flatten)]
@@ -81,14 +79,22 @@ pub(crate) fn run(args: &Args) -> Outcome {
         ..CertifyOptions::default()
     };
     let mut certificate = certify(&mesh, &options);
-    // Without the input the file is believed.
+    // Without the input the file is believed. As Triangle does it, points may be vertices
+    // without triangles.
+    let spare = promised.is_some() && graph.is_none();
     let promised = promised.filter(|_| asked.is_none());
     let believed = promised.as_ref().filter(|_| graph.is_none()).map_or(&[][..], |p| &p.exempt);
     let exempt = excuse(&mut certificate, &mesh, believed);
     let of_graph = graph.map(|graph| OfGraph::new(&mesh, graph, promised.as_ref(), &mut certificate));
     certificate.violations.truncate(LISTED);
-    let found =
-        Found { certificate, of_graph, exempt, has_bounds: known.is_some(), has_input: input.is_some() };
+    let found = Found {
+        certificate,
+        of_graph,
+        exempt,
+        spare,
+        has_bounds: known.is_some(),
+        has_input: input.is_some(),
+    };
     let holds = found.holds();
     let text = if args.json {
         let findings = Findings { holds, certificate: &found.certificate, of_graph: found.of_graph.as_ref() };
@@ -135,18 +141,24 @@ struct Found {
     of_graph: Option<OfGraph>,
     /// Triangles that are exempt because the file says so.
     exempt: usize,
+    /// Whether vertices may be in no triangle.
+    spare: bool,
     /// Whether angles are held against any bounds.
     has_bounds: bool,
     has_input: bool,
 }
 
 impl Found {
+    /// Vertices in no triangle, where that is a fault.
+    fn unused(&self) -> usize {
+        if self.spare { 0 } else { self.certificate.unused_vertices }
+    }
+
     /// An empty mesh has no fault, but is none: it does not hold.
     fn holds(&self) -> bool {
         let c = &self.certificate;
-        let broken =
-            c.malformed + c.not_finite + c.not_counter_clockwise + c.repeated_edges + c.unused_vertices;
-        broken + c.out_of_bounds == 0
+        let broken = c.malformed + c.not_finite + c.not_counter_clockwise + c.repeated_edges;
+        broken + self.unused() + c.out_of_bounds == 0
             && c.triangles > 0
             && c.delaunay
             && c.inputs_kept == c.inputs
@@ -167,7 +179,8 @@ fn readable(name: &str, found: &Found) -> String {
         "        shortest edge {}, largest aspect ratio {:.4}",
         c.shortest_edge, c.max_aspect_ratio
     );
-    let mut violations: Vec<String> = c.violations.iter().map(describe).collect();
+    let is_fault = |v: &&Violation| !found.spare || !matches!(v, Violation::UnusedVertex { .. });
+    let mut violations: Vec<String> = c.violations.iter().filter(is_fault).map(describe).collect();
     violations.extend(found.of_graph.iter().flat_map(OfGraph::describe));
     for violation in violations.iter().take(SHOWN) {
         let _ = writeln!(text, "  - {violation}");
@@ -206,7 +219,7 @@ fn findings(found: &Found) -> Vec<(bool, String)> {
             format!("{broken} triangles flat, clockwise or broken"),
         ),
         finding(c.delaunay, "Delaunay", format!("not Delaunay: {} edges", c.non_delaunay_edges)),
-        topology(c),
+        topology(found),
     ];
     if let Some(of_graph) = &found.of_graph {
         findings.extend(of_graph.findings());
@@ -232,8 +245,9 @@ fn findings(found: &Found) -> Vec<(bool, String)> {
 }
 
 /// How the triangles hang together.
-fn topology(c: &Certificate) -> (bool, String) {
-    let sound = c.repeated_edges + c.unused_vertices == 0 && c.triangles > 0;
+fn topology(found: &Found) -> (bool, String) {
+    let c = &found.certificate;
+    let sound = c.repeated_edges + found.unused() == 0 && c.triangles > 0;
     let shape = if c.disk {
         "one disk".to_owned()
     } else {

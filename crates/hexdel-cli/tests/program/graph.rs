@@ -36,7 +36,7 @@ fn markers_and_regions_are_written() {
     assert!(text("a.node").lines().next().unwrap().ends_with(" 2 1 1"));
     assert!(text("a.node").lines().any(|line| line.ends_with(" 13")));
     assert!(text("a.ele").lines().next().unwrap().ends_with(" 3 0"));
-    let attributes = |line: &str| line.ends_with(" 10.5") || line.ends_with(" 20.0");
+    let attributes = |line: &str| line.starts_with('#') || line.ends_with(" 10.5") || line.ends_with(" 20.0");
     assert!(text("b.ele").lines().skip(1).all(attributes));
     assert!(text("b.vtu").contains("Name=\"region\"") && text("b.vtu").contains("Name=\"marker\""));
 }

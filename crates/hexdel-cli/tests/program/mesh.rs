@@ -244,7 +244,9 @@ fn angles_may_be_asked_for() {
         ("--max-angle -1", 2, "no triangle has all angles"),
         ("--method compact --budget -1", 2, "expected a number of seconds"),
         ("--method compact --effort none", 2, "possible values"),
-        ("--method compact --min-angle 59.9 --max-angle 60.1", 1, "did not reach"),
+        ("--min-angle 51.5", 2, "the smallest may be asked to be 51.4 at most"),
+        ("--max-angle 71", 2, "the largest 72 at least"),
+        ("--method compact --min-angle 51 --max-angle 72", 1, "did not reach"),
     ] {
         let run = bench.run(&format!("mesh {input} -o x.ele {arguments}"));
         assert_eq!(run.code, code, "{arguments}: {}", run.err);
