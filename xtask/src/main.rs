@@ -33,7 +33,7 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
-    /// Prove by enumeration that every triangle keeps 43.9 to 90 degrees, and
+    /// Prove by enumeration that every triangle keeps 43.89 to 90 degrees, and
     /// write docs/proof.md
     Prove {
         /// Leave a rule away, by its name; nothing is written then

@@ -34,7 +34,7 @@ use std::process::ExitCode;
 #[command(
     name = "hexdel",
     version,
-    about = "Triangle meshes of points with every angle between 43.9 and 90 degrees, certified",
+    about = "Triangle meshes of points with every angle between 43.89 and 90 degrees, certified",
     after_help = "Exit codes: 0 done, 1 a check failed, 2 bad input or usage, 3 budget spent (mesh written).\n\n\
         Examples:\n  \
         hexdel generate clusters 500 --seed 1 -o points.node\n  \

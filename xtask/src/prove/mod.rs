@@ -1,5 +1,5 @@
 //! `cargo xtask prove`: every triangle of the relocated dual keeps
-//! `atan(5 / (3 sqrt 3))` = 43.9 to 90 degrees (paper, section 6.1, which leaves
+//! `atan(5 / (3 sqrt 3))` = 43.89 to 90 degrees (paper, section 6.1, which leaves
 //! the proof to the reader).
 //!
 //! All legal local configurations on which a triangle can depend are enumerated

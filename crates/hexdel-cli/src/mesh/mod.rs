@@ -18,7 +18,7 @@ use std::time::Duration;
 
 pub(crate) use graph::{Finished, failure, warn_of_repairs};
 
-/// Mesh points, or segments: angles of 43.9 to 90 degrees, at segments 30 to 90
+/// Mesh points, or segments: angles of 43.89 to 90 degrees, at segments 30 to 90
 #[derive(clap::Args)]
 #[command(
     mut_arg("format", |arg| arg.hide(true)),
