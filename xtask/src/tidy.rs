@@ -13,7 +13,11 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("hexdel-classify", &["hexdel-grid", "hexdel-geom"]),
     ("hexdel-refine", &["hexdel-classify", "hexdel-grid", "hexdel-geom"]),
     ("hexdel-optimize", &["hexdel-geom"]),
-    ("hexdel-pslg", &["hexdel-refine", "hexdel-optimize", "hexdel-classify", "hexdel-grid", "hexdel-geom"]),
+    ("hexdel-grow", &["hexdel-optimize", "hexdel-geom"]),
+    (
+        "hexdel-pslg",
+        &["hexdel-refine", "hexdel-grow", "hexdel-optimize", "hexdel-classify", "hexdel-grid", "hexdel-geom"],
+    ),
     ("hexdel-io", &["hexdel-geom"]),
     (
         "hexdel",
@@ -23,6 +27,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "hexdel-classify",
             "hexdel-refine",
             "hexdel-optimize",
+            "hexdel-grow",
             "hexdel-pslg",
             "hexdel-io",
         ],
