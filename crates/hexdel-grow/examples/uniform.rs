@@ -1,5 +1,7 @@
 //! `uniform COUNT DEGREES [SEED]`: what growth from uniform points in a hexagon takes, and that nothing is left.
 
+#![allow(clippy::print_stdout, reason = "a program that prints")]
+
 use std::time::Duration;
 
 use hexdel_geom::{AngleBounds, CertifyOptions, DVec2, Unwatched, certify};
@@ -44,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let input = Input { points: &points, segments: &segments, ..Input::default() };
     let began = cpu();
     let grown = grow(&input, &Options::new(degrees), &Unwatched)?;
-    let took = cpu() - began;
+    let took = cpu().saturating_sub(began);
     let bounds = AngleBounds::new(degrees, 90.0)?;
     let options = CertifyOptions { bounds, inputs: Some(&points), ..CertifyOptions::default() };
     let certificate = certify(&grown.mesh, &options);
