@@ -170,7 +170,8 @@ fn each_in(mesh: &TriMesh, points: &[DVec2], mut call: impl FnMut(usize, u32)) {
 /// segments: triangles are in one face if edges lead from one to the other that are
 /// none of `edges`, those of segments as [`check_segments`] finds them.
 ///
-/// A seed on the rim of triangles counts for the first of them.
+/// A seed on an edge of a segment, or on an end of one, has two sides and counts for
+/// none; on another edge it counts for the first of the triangles there.
 ///
 /// # Complexity
 ///
@@ -195,13 +196,13 @@ fn each_in(mesh: &TriMesh, points: &[DVec2], mut call: impl FnMut(usize, u32)) {
 /// ```
 pub fn faces(mesh: &TriMesh, edges: &[[VertexId; 2]], seeds: &[DVec2]) -> Vec<Option<u32>> {
     let mut face = vec![None; mesh.triangles.len()];
-    let starts = holders(mesh, seeds);
+    let mut bound: Vec<[VertexId; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+    bound.sort_unstable();
+    let starts = holders(mesh, &bound, seeds);
     if starts.iter().all(Option::is_none) {
         return face;
     }
     let incidence = Incidence::new(mesh);
-    let mut bound: Vec<[VertexId; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
-    bound.sort_unstable();
     for (seed, start) in (0..).zip(starts) {
         let mut stack: Vec<u32> = start.into_iter().collect();
         while let Some(t) = stack.pop() {
@@ -221,13 +222,22 @@ pub fn faces(mesh: &TriMesh, edges: &[[VertexId; 2]], seeds: &[DVec2]) -> Vec<Op
     face
 }
 
-/// For each point the first triangle that it lies in, or on the rim of.
-fn holders(mesh: &TriMesh, points: &[DVec2]) -> Vec<Option<u32>> {
+/// For each point the first triangle that it lies in, or on the rim of; none for those on
+/// `bound` edges.
+fn holders(mesh: &TriMesh, bound: &[[VertexId; 2]], points: &[DVec2]) -> Vec<Option<u32>> {
     let mut holders = vec![None; points.len()];
+    let mut is_bound = vec![false; points.len()];
     each_in(mesh, points, |i, t| {
         holders[i].get_or_insert(t);
+        let p = points[i];
+        let [a, b, c] = mesh.triangles[t as usize];
+        for [v, w] in [[a, b], [b, c], [c, a]] {
+            let on = orient2d(mesh.vertices[v.index()], mesh.vertices[w.index()], p) == 0.0;
+            is_bound[i] |= on && bound.binary_search(&[v.min(w), v.max(w)]).is_ok();
+        }
     });
-    holders
+    let free = |(holder, is_bound): (Option<u32>, bool)| holder.filter(|_| !is_bound);
+    holders.into_iter().zip(is_bound).map(free).collect()
 }
 
 struct Walker<'a> {
@@ -387,7 +397,11 @@ mod tests {
         assert_eq!(faces(&plate, &[], &seeds[3..]), [None; 4]);
         // On the edge between two: the first triangle of them.
         let on_edge = [DVec2::new(1.0, 0.5)];
-        assert_eq!(faces(&plate, &[edge(1, 2), edge(0, 2)], &on_edge), [Some(0), None, None, None]);
+        assert_eq!(faces(&plate, &[edge(0, 2)], &on_edge), [Some(0), None, Some(0), Some(0)]);
+        // On a segment, between its ends or at one: none.
+        for seed in [on_edge[0], DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0)] {
+            assert_eq!(faces(&plate, &[edge(1, 2), edge(0, 2)], &[seed]), [None; 4], "{seed}");
+        }
     }
 
     #[test]
