@@ -74,7 +74,7 @@ pub struct Grown {
     pub point_of_vertex: Vec<Option<u32>>,
     /// The edges on segments, each once, with the segment.
     pub edges: Vec<([VertexId; 2], u32)>,
-    /// Triangles with an angle out of the bounds, but for the corners of [`Stats`]' exemption.
+    /// Triangles with an angle out of the bounds. The lower one is not asked of a corner between two segments at a point.
     pub left: Vec<u32>,
     /// What it took.
     pub stats: Stats,
