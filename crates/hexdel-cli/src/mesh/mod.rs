@@ -71,7 +71,7 @@ pub(crate) struct Args {
     /// The same by place: a raster (.asc), or points with sizes (x y size)
     #[arg(long, value_name = "FILE")]
     size_file: Option<PathBuf>,
-    /// Merge close points, split segments at crossings and points [TOL: 1e-9 of the size]
+    /// Merge close points, split crossing segments [TOL: 1e-9 of the size]
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
     repair: Option<Option<f64>>,
@@ -86,7 +86,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
     /// Do not merge hexagons again where all rules allow it
-    #[arg(long)]
+    #[arg(long, hide = true)]
     no_coarsening: bool,
     /// Threads to use; the mesh does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
