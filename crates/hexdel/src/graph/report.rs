@@ -209,7 +209,8 @@ impl std::fmt::Display for ExceptionEntry {
 }
 
 impl RepairEntry {
-    fn new(repair: &Repair) -> Self {
+    /// One thing that repair did, in words.
+    pub fn new(repair: &Repair) -> Self {
         let (what, at) = match *repair {
             Repair::MergedPoint { point, into, at, distance } => {
                 (format!("point {point} went into point {into}, {distance:e} away"), at)

@@ -1,0 +1,151 @@
+"""Files of meshes and graphs, by extension."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _arrays, _calls, _hexdel
+from ._arrays import frozen
+from ._errors import FileError, HexdelWarning, OptionError
+from ._mesh import Mesh
+
+
+class Graph(Mapping[str, Any]):
+    """Points and segments that were read: the arguments of `mesh_pslg`.
+
+    A mapping with ``points``, ``segments``, ``holes``, ``regions``, ``markers`` and
+    ``point_markers``, so that ``hexdel.mesh_pslg(**graph)`` meshes it; each is an
+    attribute, too. ``point_attributes`` is an attribute only.
+    """
+
+    _KEYS = ("points", "segments", "holes", "regions", "markers", "point_markers")
+
+    def __init__(self, raw: dict[str, Any]) -> None:
+        self.points = frozen(raw["points"])
+        self.segments = frozen(raw["segments"])
+        self.holes = frozen(raw["holes"])
+        self.regions = frozen(raw["regions"])
+        self.point_attributes = frozen(raw["point_attributes"])
+        self.markers = frozen(raw["segment_markers"]) if len(raw["segment_markers"]) else None
+        self.point_markers = frozen(raw["point_markers"]) if len(raw["point_markers"]) else None
+
+    def __getitem__(self, key: str) -> Any:
+        if key not in self._KEYS:
+            raise KeyError(key)
+        return getattr(self, key)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._KEYS)
+
+    def __len__(self) -> int:
+        return len(self._KEYS)
+
+    def __repr__(self) -> str:
+        counts = ((len(self[key]), key) for key in ("points", "segments", "holes", "regions"))
+        return f"<hexdel.Graph: {', '.join(f'{count} {name}' for count, name in counts if count)}>"
+
+
+def read(path: str | os.PathLike[str]) -> Mesh | Graph:
+    """Reads a mesh, points or a graph, by the extension of the file.
+
+    Parameters
+    ----------
+    path : path-like
+        Meshes: ``.ele`` with ``.node``, ``.vtu``, ``.msh``, ``.obj``, ``.off``, ``.mesh``,
+        ``.json``, ``.ron``. Points and graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``,
+        ``.xyz``, ``.txt``, ``.pts``, ``.geojson``, ``.wkt``, ``.json``, ``.ron``.
+
+    Returns
+    -------
+    Mesh or Graph
+        Graphs (and points) go on to ``mesh_pslg(**graph)``, or ``mesh(graph.points)``.
+
+    Raises
+    ------
+    MissingFileError
+        There is no such file.
+    FileError
+        The file is not what its extension says, with the line.
+
+    Examples
+    --------
+    >>> import hexdel, os, tempfile
+    >>> mesh = hexdel.mesh([(0, 0), (1, 0)])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     hexdel.write(os.path.join(folder, "two.vtu"), mesh)
+    ...     again = hexdel.read(os.path.join(folder, "two.vtu"))
+    >>> bool((again.vertices == mesh.vertices).all())
+    True
+    """
+    path = os.fspath(path)
+    is_mesh, is_graph = _hexdel.formats(path)
+    if path.lower().endswith(".node"):
+        # A file of points, even if there are triangles to it: those are in .ele.
+        is_mesh = False
+    if is_mesh and is_graph:
+        try:
+            is_mesh = _hexdel.holds_mesh(path)
+        except FileNotFoundError:
+            is_mesh = False
+        except OSError as error:
+            raise FileError(str(error), kind="file") from None
+    if not is_mesh:
+        return Graph(_hexdel.read_graph(path))
+    raw = {name: value for name, value in _hexdel.read_mesh(path).items() if value is not None}
+    if "input_of_vertex" in raw:
+        raw["vertex_of_input"] = _inverse(raw["input_of_vertex"])
+    return Mesh._of(raw)
+
+
+def _inverse(inputs: Any) -> Any:
+    count = int(inputs.max(initial=-1)) + 1
+    vertices = np.full(count, -1, np.int32)
+    known = np.flatnonzero(inputs >= 0)[::-1]
+    vertices[inputs[known]] = known
+    return vertices
+
+
+def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False) -> None:
+    """Writes a mesh, or points or a graph, by the extension of the file.
+
+    Parameters
+    ----------
+    path : path-like
+        Meshes: ``.ele`` with ``.node``, ``.edge``, ``.neigh``, ``.poly``, ``.vtu``, ``.msh``,
+        ``.obj``, ``.off``, ``.mesh``, ``.json``, ``.ron``, and pictures: ``.svg``, ``.png``.
+        Graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``, ``.xyz``, ``.json``, ``.ron``.
+    what : Mesh, Graph, mapping or array_like
+        A graph is a mapping of arguments of `mesh_pslg`, points are an array of shape (n, 2).
+    second_order : bool, optional
+        Whether ``.ele`` gets nodes on the middles of edges.
+
+    Raises
+    ------
+    FileError
+        The file cannot be written, or not in this format. What was there before stays.
+
+    Warns
+    -----
+    HexdelWarning
+        The format has no place for something that is known.
+    """
+    path = os.fspath(path)
+    if isinstance(what, Mesh):
+        lost = _hexdel.write_mesh(path, what._raw(), bool(second_order))
+    else:
+        if second_order:
+            raise OptionError("second_order is for meshes", kind="option")
+        given = dict(what) if isinstance(what, Mapping) else {"points": what}
+        unknown = set(given) - set(Graph._KEYS)
+        if unknown:
+            raise OptionError(f"a graph has no {', '.join(map(repr, sorted(unknown)))}", kind="option")
+        places = _arrays.points(given.pop("points", None))
+        lost = _hexdel.write_graph(path, _calls._graph(places, **given))
+    if lost:
+        name = os.path.basename(path)
+        warnings.warn(f"{name}: the format has no place for {', '.join(lost)}", HexdelWarning, stacklevel=2)
