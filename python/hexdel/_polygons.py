@@ -70,9 +70,8 @@ def mesh_polygons(
     wanted: SizeLike | None = _column(geometry, features, size) if isinstance(size, str) else size
     _warn_of_degrees(geometry)
     text = json.dumps({"type": "FeatureCollection", "features": features})
-    graph = _hexdel.parse_graph(text, "geojson", "the polygons")
     raw = _options.raw(
-        graph["points"],
+        np.zeros((0, 2)),
         method=method,
         effort=effort,
         min_angle=min_angle,
@@ -85,8 +84,7 @@ def mesh_polygons(
         threads=threads,
         progress=progress,
     )
-    graph["segments"] = graph["segments"].astype(np.uint32)
-    made = _calls._made(_hexdel.mesh_graph, graph, raw)
+    made = _calls._made(lambda text, raw: _hexdel.mesh_text(text, "geojson", "the polygons", raw), text, raw)
     data = dict(made._data)
     data["region_of_triangle"] = made.regions.astype(np.int32) - 1
     return Mesh._of(data)

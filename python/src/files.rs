@@ -62,17 +62,11 @@ pub(crate) fn read_graph(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, Py
 }
 
 /// The graph in a text of a format, by the format's name.
-#[pyfunction]
-pub(crate) fn parse_graph<'py>(
-    py: Python<'py>,
-    text: String,
-    format: &str,
-    name: String,
-) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn parsed(py: Python<'_>, text: &str, format: &str, name: &str) -> PyResult<Pslg> {
     let format = PointFormat::from_name(format)
         .ok_or_else(|| errors::plain(py, "file", &format!("there is no format {format:?}")))?;
-    let read = aside(py, move || io::read_points_from(Cursor::new(text.as_bytes()), format, &name))?;
-    graph_out(py, read.map_err(|error| errors::of_reading(py, &error))?)
+    let read = py.detach(|| io::read_points_from(Cursor::new(text.as_bytes()), format, name));
+    read.map_err(|error| errors::of_reading(py, &error))
 }
 
 fn graph_out(py: Python<'_>, graph: Pslg) -> PyResult<Bound<'_, PyDict>> {

@@ -23,11 +23,11 @@ mod _hexdel {
     use crate::check::{check, dual};
     #[pymodule_export]
     use crate::files::{
-        formats, generate_points, holds_mesh, parse_graph, picture, read_graph, read_mesh, write_dual,
-        write_graph, write_mesh,
+        formats, generate_points, holds_mesh, picture, read_graph, read_mesh, write_dual, write_graph,
+        write_mesh,
     };
     #[pymodule_export]
-    use crate::mesh::{mesh_graph, mesh_points};
+    use crate::mesh::{mesh_graph, mesh_points, mesh_text};
     #[pymodule_export]
     use crate::session::RawSession;
 }

@@ -4,7 +4,7 @@ use crate::convert::{GraphArrays, indices_out, points_in, points_out, rows_out, 
 use crate::errors;
 use crate::options::Options;
 use crate::watch::{Watch, run};
-use hexdel::{Method, PslgTriangulation, Start, Triangulation};
+use hexdel::{Method, Pslg, PslgTriangulation, Start, Triangulation};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -64,7 +64,23 @@ pub(crate) fn mesh_graph<'py>(
     graph: GraphArrays<'py>,
     options: Options<'py>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let graph = graph.graph()?;
+    mesh_of_graph(py, graph.graph()?, &options)
+}
+
+/// Meshes the graph in a text of a format, by the format's name: what arrays have no
+/// place for stays.
+#[pyfunction]
+pub(crate) fn mesh_text<'py>(
+    py: Python<'py>,
+    text: &str,
+    format: &str,
+    name: &str,
+    options: Options<'py>,
+) -> PyResult<Bound<'py, PyDict>> {
+    mesh_of_graph(py, crate::files::parsed(py, text, format, name)?, &options)
+}
+
+fn mesh_of_graph<'py>(py: Python<'py>, graph: Pslg, options: &Options<'_>) -> PyResult<Bound<'py, PyDict>> {
     let watch = Arc::new(Watch::default());
     let mesher = options.mesher(py, &graph.points, true, &watch)?;
     let monitor = watch.clone();

@@ -4,6 +4,7 @@ mod bench;
 mod ci;
 mod drawing;
 mod prove;
+mod python;
 mod regen;
 mod tidy;
 
@@ -33,6 +34,11 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Build the Python package and test it, with every package that it hands meshes
+    /// to, in virtual environments below target/; nothing where there is no Python
+    Python,
+    /// Build the wheel of the Python package and its source distribution into target/wheels
+    Wheel,
     /// Prove by enumeration that every triangle keeps 43.89 to 90 degrees, and
     /// write docs/proof.md
     Prove {
@@ -55,6 +61,8 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(),
         Task::Bench(args) => bench::run(&args),
         Task::Regen { check } => regen::run(check),
+        Task::Python => python::test(),
+        Task::Wheel => python::wheel(),
         Task::Prove { without, reduced } => prove::run(&without, reduced),
     };
     match outcome {
