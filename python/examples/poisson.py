@@ -58,9 +58,7 @@ def by_elements(mesh: hexdel.Mesh) -> Floats:
     stiffness = skfem.BilinearForm(lambda u, v, w: u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1])
     load = skfem.LinearForm(lambda v, w: 3 * np.sin(2 * w.x[0]) * np.cosh(w.x[1]) * v)
     values = exact(mesh.vertices)
-    condensed = skfem.condense(
-        stiffness.assemble(basis), load.assemble(basis), x=values, D=np.unique(mesh.boundary)
-    )
+    condensed = skfem.condense(stiffness.assemble(basis), load.assemble(basis), x=values, D=np.unique(mesh.boundary))
     solution: Floats = skfem.solve(*condensed)
     return solution
 

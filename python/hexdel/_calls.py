@@ -383,6 +383,7 @@ def _warn(data: dict[str, Any]) -> None:
     outside = np.flatnonzero(inputs < 0)
     if len(outside):
         notes.append(f"{len(outside)} points are not in the domain: {_some(outside.tolist())}")
+    notes.extend(data.get("warnings", []))
     if repairs:
         notes.append(f"repaired: {_some(repairs)}")
     exempt, failed = (data.get(name, ("", []))[1] for name in ("exempt", "failed"))

@@ -77,12 +77,9 @@ def to_skfem(self: Mesh) -> Any:
     skfem.MeshTri
     """
     skfem = wanted("skfem", "scikit-fem")
-    mesh = skfem.MeshTri(
-        np.ascontiguousarray(self.vertices.T), np.ascontiguousarray(self.triangles.T.astype(np.int64))
-    )
+    mesh = skfem.MeshTri(np.ascontiguousarray(self.vertices.T), np.ascontiguousarray(self.triangles.T.astype(np.int64)))
     subdomains = {
-        f"region {attribute:g}": np.flatnonzero(self.regions == attribute)
-        for attribute in np.unique(self.regions)
+        f"region {attribute:g}": np.flatnonzero(self.regions == attribute) for attribute in np.unique(self.regions)
     }
     count = np.int64(max(len(self.vertices), 1))
     facets = np.sort(mesh.facets, axis=0).astype(np.int64)

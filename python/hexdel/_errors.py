@@ -115,6 +115,7 @@ class InternalError(HexdelError, RuntimeError):
 
 _CLASSES: dict[str, type[HexdelError]] = {
     "bounds": OptionError,
+    "no_grading": OptionError,
     "option": OptionError,
     "domain": OptionError,
     "tolerance": OptionError,
@@ -142,6 +143,8 @@ _HINTS: dict[str, str] = {
     "overlap": "pass repair=True to merge what segments share",
     "duplicate": "pass repair=True to merge them",
     "zero_length": "pass repair=True to drop it",
+    "overlaps": "pass overlaps='later' to take the later polygon there",
+    "no_grading": "pass min_angle of at most 43.89 and max_angle of at least 90",
     "nothing_enclosed": "close the outline, or pass domain='hull' or domain='box'",
     "segment_end": "segments hold indices of points, from 0",
     "bounds": "pass min_angle of at most 43.89 and max_angle of at least 90, or method='compact'",
@@ -162,9 +165,11 @@ def make(details: dict[str, Any]) -> HexdelError:
     least = details.pop("least", None)
     hint = _HINTS.get(kind)
     if kind == "too_close" and least is not None:
-        joined = f"repair={2 * least:.2g}"
+        joined = f"repair={1.1 * least:.2g}"
         call = "" if details.get("item") == "segment" else " to mesh_pslg"
         hint = f"drop one of them, or pass {joined}{call} to join what is closer"
+    elif kind == "too_many" and least is not None:
+        hint = f"pass repair={1.1 * least:.2g} to join what is so close, or ask for larger sizes"
     elif kind == "domain" and least is not None:
         hint = f"pass radius={least:.6g}, or leave it out"
     if details.get("mesh") is not None:

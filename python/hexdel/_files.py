@@ -50,7 +50,7 @@ class Graph(Mapping[str, Any]):
         return f"<hexdel.Graph: {', '.join(f'{count} {name}' for count, name in counts if count)}>"
 
 
-def read(path: str | os.PathLike[str]) -> Mesh | Graph:
+def read(path: str | os.PathLike[str], *, columns: str | None = None) -> Mesh | Graph:
     """Reads a mesh, points or a graph, by the extension of the file.
 
     Parameters
@@ -59,11 +59,15 @@ def read(path: str | os.PathLike[str]) -> Mesh | Graph:
         Meshes: ``.ele`` with ``.node``, ``.vtu``, ``.msh``, ``.obj``, ``.off``, ``.mesh``,
         ``.json``, ``.ron``. Points and graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``,
         ``.xyz``, ``.txt``, ``.pts``, ``.geojson``, ``.wkt``, ``.json``, ``.ron``.
+    columns : str, optional
+        Columns of x and y in a table, by name or number from 1: ``"easting,northing"``.
+        Found out from the header unless said otherwise.
 
     Returns
     -------
     Mesh or Graph
-        Graphs (and points) go on to ``mesh_pslg(**graph)``, or ``mesh(graph.points)``.
+        Graphs (and points) go on to ``mesh_pslg(**graph)``, or ``mesh(graph.points)``. Polygons
+        become holes and regions, whose attribute is the number of the polygon from 1.
 
     Raises
     ------
@@ -95,7 +99,10 @@ def read(path: str | os.PathLike[str]) -> Mesh | Graph:
         except OSError as error:
             raise FileError(str(error), kind="file") from None
     if not is_mesh:
-        return Graph(_hexdel.read_graph(path))
+        graph = _hexdel.read_graph(path, columns)
+        if graph["warnings"]:
+            warnings.warn("; ".join(graph["warnings"]), HexdelWarning, stacklevel=2)
+        return Graph(graph)
     raw = {name: value for name, value in _hexdel.read_mesh(path).items() if value is not None}
     if "input_of_vertex" in raw:
         raw["vertex_of_input"] = _inverse(raw["input_of_vertex"])

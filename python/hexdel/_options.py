@@ -24,6 +24,7 @@ METHODS = ("compact", "templates", "simple")
 EFFORTS = ("fast", "standard", "best")
 DOMAINS = ("hexagon", "hull", "box", "inside")
 WAYS = ("conform", "paper")
+OVERLAPS = ("later", "refuse")
 
 
 class Raw(TypedDict):
@@ -39,6 +40,7 @@ class Raw(TypedDict):
     radius: float | None
     repair: float | None
     segment_method: str | None
+    overlaps: str | None
     coarsening: bool | None
     threads: int | None
     size: list[Any]
@@ -58,6 +60,7 @@ def raw(
     domain: str | float | None = None,
     repair: bool | float | None = None,
     segment_method: str | None = None,
+    overlaps: str | None = None,
     threads: int | None = None,
     size: SizeLike | None = None,
     gradation: float | None = None,
@@ -78,6 +81,7 @@ def raw(
         "radius": radius,
         "repair": tolerance(repair),
         "segment_method": word(segment_method, WAYS, "segment_method"),
+        "overlaps": word(overlaps, OVERLAPS, "overlaps"),
         "coarsening": None,
         "threads": thread_count(threads),
         "size": parts(size, points),
@@ -94,9 +98,7 @@ def word(value: Any, words: tuple[str, ...], name: str) -> str | None:
         return value.lower()
     close = difflib.get_close_matches(str(value), words, 1)
     hint = f"did you mean {close[0]!r}?" if close else None
-    raise OptionError(
-        f"{name} must be one of {', '.join(map(repr, words))}, got {value!r}", kind="option", hint=hint
-    )
+    raise OptionError(f"{name} must be one of {', '.join(map(repr, words))}, got {value!r}", kind="option", hint=hint)
 
 
 def number(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -21,6 +21,7 @@ def mesh_polygons(
     *,
     size: SizeLike | str | None = None,
     repair: bool | float | None = None,
+    overlaps: Literal["later", "refuse"] | None = None,
     min_angle: float | None = None,
     max_angle: float | None = None,
     method: Method | None = None,
@@ -43,6 +44,9 @@ def mesh_polygons(
         each polygon, as pandamesh's ``cellsize``.
     repair : bool or float, optional
         Outlines that cross, overlap or nearly meet: as of `mesh_pslg`.
+    overlaps : {'later', 'refuse'}, optional
+        Where polygons overlap the later one counts, with a warning (the default), or it is
+        an error. Gaps between polygons are outside.
     min_angle, max_angle, method, effort, gradation, max_area, budget, threads, progress
         As of `mesh_pslg`.
 
@@ -56,6 +60,11 @@ def mesh_polygons(
     ------
     InputError
         Something that holds no polygons, or outlines that cross.
+
+    Warns
+    -----
+    HexdelWarning
+        Overlaps, borders that were divided where they meet others, and as of `mesh_pslg`.
 
     Examples
     --------
@@ -79,6 +88,7 @@ def mesh_polygons(
         max_area=max_area,
         budget=budget,
         repair=repair,
+        overlaps=overlaps,
         size=wanted,
         gradation=gradation,
         threads=threads,

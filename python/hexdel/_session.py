@@ -114,15 +114,11 @@ class Session:
         )
         if len(places) == 0 and segments is None:
             if center is None or radius is None:
-                raise OptionError(
-                    "a session needs points, or a center and a radius to begin without", kind="option"
-                )
+                raise OptionError("a session needs points, or a center and a radius to begin without", kind="option")
             middle = _arrays.rows(np.atleast_2d(_arrays.floats(center, "center")), 2, "center")[0]
             length = _options.number(radius, "radius", least=0.0, open_=True)
             if any(raw[name] is not None for name in ("min_angle", "max_angle", "max_area", "domain")):
-                raise OptionError(
-                    "a session without points takes no bounds, areas or domain", kind="option"
-                )
+                raise OptionError("a session without points takes no bounds, areas or domain", kind="option")
             at = (float(middle[0]), float(middle[1]))
             self._raw = _hexdel.RawSession.empty(at, float(length or 0.0), raw)
         else:

@@ -231,9 +231,7 @@ def functions(raw: list[Any]) -> list[Function]:
 
 def with_factor(raw: list[Any], factor: float) -> list[Any]:
     """The same parts with another factor for what callables return."""
-    return [
-        (part[0], factor) if isinstance(part, tuple) and isinstance(part[0], Function) else part for part in raw
-    ]
+    return [(part[0], factor) if isinstance(part, tuple) and isinstance(part[0], Function) else part for part in raw]
 
 
 def worst(vertices: Floats, edges: NDArray[Any], asked: list[Function]) -> float:

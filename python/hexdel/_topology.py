@@ -40,9 +40,7 @@ def topology(triangles: NDArray[Any], vertices: int) -> Topology:
     # Without vertices there are no edges to divide.
     edges = np.stack(np.divmod(unique, max(vertices, 1)), axis=1)
     boundary = np.stack((start[alone], end[alone]), axis=1)
-    return Topology(
-        edges.astype(np.int32), neighbors.reshape(-1, 3), boundary.astype(np.int32)
-    )
+    return Topology(edges.astype(np.int32), neighbors.reshape(-1, 3), boundary.astype(np.int32))
 
 
 def loops(boundary: NDArray[Any]) -> list[Ints]:

@@ -82,7 +82,9 @@ class Switches:
         if letter in "qa":
             number = None
             if digits:
-                number = _options.number(_number(digits), f"the number after {letter!r}", least=0.0, open_=letter == "a")
+                number = _options.number(
+                    _number(digits), f"the number after {letter!r}", least=0.0, open_=letter == "a"
+                )
             if letter == "q":
                 self.min_angle = number
             elif number is None:
@@ -132,7 +134,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, NDArray[Any
         ``vertex_attributes``, ``triangles``, ``triangle_attributes``, ``neighbors``,
         ``segments``, ``segment_markers``, ``edges``, ``edge_markers``, ``holes``,
         ``regions``. Vertices begin with those given, in their order. Attributes
-        are interpolated linearly on the mesh.
+        are interpolated linearly between the points given.
 
     Examples
     --------
@@ -160,6 +162,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, NDArray[Any
         regions,
         given.get("segment_markers") if segments is not None else None,
         given.get("vertex_markers"),
+        attributes,
     )
     hull = "c" in switches or len(graph["segments"]) == 0
     raw = _options.raw(
@@ -206,7 +209,7 @@ def _answer(
     if attributes.shape[1]:
         values = np.zeros((len(answer["vertices"]), attributes.shape[1]))
         values[: len(points)] = attributes
-        values[number] = _interpolated(made, attributes)
+        values[number] = made._data["vertex_attributes"]
         answer["vertex_attributes"] = values
     triangles = number[made.triangles]
     edges = made.edges if switches.second_order or "e" in switches else np.zeros((0, 2), np.int32)
@@ -259,50 +262,6 @@ def _with_middles(
     place = np.searchsorted(_key(edges, len(made.vertices)), _key(sides, len(made.vertices)))
     triangles = np.concatenate((triangles, (before + place).reshape(-1, 3).astype(np.int32)), axis=1)
     return answer, np.concatenate((markers, _edge_markers(made, edges))), triangles
-
-
-def _interpolated(made: Mesh, attributes: Floats) -> Floats:
-    """Attributes at all vertices: those given at points, between them harmonic.
-
-    Each free vertex gets the mean of its neighbours by the weights of the edges, which
-    reproduces linear functions and never leaves the range of what is given.
-    """
-    values: Floats = np.zeros((len(made.vertices), attributes.shape[1]), np.float64)
-    known = made.input_of_vertex >= 0
-    values[known] = attributes[made.input_of_vertex[known]]
-    if known.all() or not known.any():
-        return values
-    edges, weights = made.dual().edges, np.maximum(made.dual().weights, 0.0)
-    a, b = edges.T
-    count = len(values)
-    total = np.bincount(a, weights, count) + np.bincount(b, weights, count)
-    free = np.flatnonzero(~known & (total > 0))
-
-    def outflow(x: Floats) -> Floats:
-        flow = weights * (x[a] - x[b])
-        out: Floats = np.bincount(a, flow, count).astype(np.float64) - np.bincount(b, flow, count)
-        return out[free]
-
-    for column in values.T:
-        column[free] = column[known].mean()
-        # Conjugate gradients with the diagonal as a preconditioner.
-        residual = -outflow(column)
-        scaled = residual / total[free]
-        direction, power = scaled.copy(), residual @ scaled
-        goal = 1e-24 * power
-        for _ in range(20 * int(np.sqrt(count)) + 200):
-            if power <= goal:
-                break
-            step = np.zeros(count)
-            step[free] = direction
-            image = outflow(step)
-            length = power / (direction @ image)
-            column[free] += length * direction
-            residual -= length * image
-            scaled = residual / total[free]
-            power, last = residual @ scaled, power
-            direction = scaled + power / last * direction
-    return values
 
 
 def compare(plt: Any, A: Mapping[str, Any], B: Mapping[str, Any], figsize: tuple[float, float] = (6, 3)) -> None:

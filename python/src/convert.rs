@@ -87,6 +87,7 @@ impl GraphArrays<'_> {
             segment_markers: self.segment_markers.as_array().to_vec(),
             attributes_per_point: attributes.ncols(),
             point_attributes: attributes.iter().copied().collect(),
+            ..Pslg::default()
         })
     }
 }

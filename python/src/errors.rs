@@ -122,6 +122,8 @@ fn fault_of(error: &Error) -> Fault {
         Error::DomainTooLarge { most, .. } => Fault::new("domain").least(*most),
         Error::InvalidRadius { .. } => Fault::new("domain"),
         Error::BoundsBeyondMethod { .. } => Fault::new("bounds"),
+        Error::NoGrading { .. } => Fault::new("no_grading"),
+        Error::Overlap { at, .. } => Fault::new("overlaps").at(*at),
         Error::Segments(error) => fault_of_segments(error),
         Error::Pslg(error) => fault_of_graph(error),
         Error::InvalidTolerance { .. } => Fault::new("tolerance"),
@@ -132,7 +134,7 @@ fn fault_of(error: &Error) -> Fault {
         Error::Cancelled(_) => Fault::new("cancelled"),
         Error::Unreached { .. } => Fault::new("unreached"),
         Error::NotCertified { .. } => Fault::new("not_certified"),
-        Error::Delaunay(_) | Error::Optimize(_) => Fault::new("internal"),
+        Error::Delaunay(_) | Error::Optimize(_) | Error::Refine(_) | Error::Dual(_) => Fault::new("internal"),
         _ => Fault::new("other"),
     }
 }
@@ -168,7 +170,7 @@ fn fault_of_segments(error: &ValidateError) -> Fault {
 
 fn fault_of_graph(error: &PslgError) -> Fault {
     match error {
-        PslgError::TooClose { items, at, spacing } => {
+        PslgError::TooClose { items, at, .. } => {
             let points = items.iter().filter_map(|item| match item {
                 Feature::Point(i) => Some(*i),
                 _ => None,
@@ -177,12 +179,14 @@ fn fault_of_graph(error: &PslgError) -> Fault {
                 Feature::Segment(i) => Some(*i),
                 _ => None,
             });
-            let fault = Fault::new("too_close").at(*at).least(*spacing);
+            let fault = Fault { least: error.repair_within(), ..Fault::new("too_close").at(*at) };
             let points: Vec<usize> = points.collect();
             if points.is_empty() { fault.segments(segments) } else { fault.points(points) }
         }
-        PslgError::TooMany { at, .. } => Fault::new("too_many").at(*at),
-        PslgError::NothingEnclosed => Fault::new("nothing_enclosed"),
+        PslgError::TooMany { at, .. } => {
+            Fault { location: *at, least: error.repair_within(), ..Fault::new("too_many") }
+        }
+        PslgError::NothingEnclosed { .. } => Fault::new("nothing_enclosed"),
         PslgError::BoundsBeyondMethod { .. } => Fault::new("bounds"),
         PslgError::InvalidArea { .. } => Fault::new("area"),
         PslgError::InvalidSize { at, .. } => Fault::new("size").at(*at),

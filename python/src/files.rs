@@ -54,11 +54,29 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
     Ok(dict)
 }
 
-/// Reads points or a graph: its arrays.
+/// Reads points or a graph: its arrays, with holes and regions in place of polygons.
+/// Columns of tables go by name or number.
 #[pyfunction]
-pub(crate) fn read_graph(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
-    let read = aside(py, move || io::read_points(&path))?;
-    graph_out(py, read.map_err(|error| errors::of_reading(py, &error))?)
+pub(crate) fn read_graph(
+    py: Python<'_>,
+    path: PathBuf,
+    columns: Option<String>,
+) -> PyResult<Bound<'_, PyDict>> {
+    let columns: Option<io::Columns> = columns
+        .map(|text| text.parse().map_err(|error: String| errors::plain(py, "option", &error)))
+        .transpose()?;
+    let read = aside(py, move || io::PointReader::new().columns(columns).read(&path))?;
+    let file = read.map_err(|error| errors::of_reading(py, &error))?;
+    let warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
+    let mut graph = file.pslg;
+    if !graph.polygons.is_empty() {
+        let prepared = aside(py, move || hexdel::Mesher::new().prepared_pslg(&graph))?;
+        graph = prepared.map_err(|error| errors::of_mesh(py, &error))?;
+    }
+    let dict = graph_out(py, graph)?;
+    dict.set_item("warnings", warnings)?;
+    dict.set_item("columns", file.columns.map(|columns| columns.to_string()))?;
+    Ok(dict)
 }
 
 /// The graph in a text of a format, by the format's name.

@@ -5,7 +5,7 @@ use crate::errors;
 use crate::options::Options;
 use crate::watch::{Watch, run};
 use hexdel::{Method, Pslg, PslgTriangulation, Start, Triangulation};
-use numpy::{IntoPyArray, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
@@ -84,10 +84,19 @@ fn mesh_of_graph<'py>(py: Python<'py>, graph: Pslg, options: &Options<'_>) -> Py
     let watch = Arc::new(Watch::default());
     let mesher = options.mesher(py, &graph.points, true, &watch)?;
     let monitor = watch.clone();
+    let columns = graph.attributes_per_point;
     let made = run(py, options.threads, &watch, options.progress.as_ref(), move || {
-        mesher.triangulate_pslg_watched(&graph, &*monitor)
+        let made = mesher.triangulate_pslg_watched(&graph, &*monitor)?;
+        let attributes = made.vertex_attributes(&graph);
+        Ok::<_, hexdel::Error>((made, attributes))
     })?;
-    made_of_graph(py, made.map_err(|error| errors::of_mesh(py, &error))?)
+    let (made, attributes) = made.map_err(|error| errors::of_mesh(py, &error))?;
+    let dict = made_of_graph(py, made)?;
+    if columns > 0 {
+        let count = attributes.len() / columns;
+        dict.set_item("vertex_attributes", attributes.into_pyarray(py).reshape([count, columns])?)?;
+    }
+    Ok(dict)
 }
 
 fn made_of_graph(py: Python<'_>, made: PslgTriangulation) -> PyResult<Bound<'_, PyDict>> {
@@ -114,6 +123,8 @@ fn made_of_graph(py: Python<'_>, made: PslgTriangulation) -> PyResult<Bound<'_, 
     let repairs: Vec<_> = repairs.collect();
     let texts: Vec<String> = repairs.iter().map(ToString::to_string).collect();
     dict.set_item("repairs", (json(&repairs)?, texts))?;
+    let warnings: Vec<String> = made.warnings.iter().map(ToString::to_string).collect();
+    dict.set_item("warnings", warnings)?;
     dict.set_item("certificate", json(&made.certificate)?)?;
     dict.set_item("edges_of_segment", made.edges_of_segment.clone().into_pyarray(py))?;
     dict.set_item("segments_missing", made.segments.missing.len())?;

@@ -5,7 +5,7 @@ use crate::sampled::Sampled;
 use crate::watch::Watch;
 use glam::DVec2;
 use hexdel::io::Raster;
-use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, SegmentMethod, Size};
+use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Overlaps, SegmentMethod, Size};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -27,6 +27,7 @@ pub(crate) struct Options<'py> {
     /// A tolerance, or a negative number for one in proportion to the graph.
     repair: Option<f64>,
     segment_method: Option<String>,
+    overlaps: Option<String>,
     coarsening: Option<bool>,
     pub(crate) threads: Option<usize>,
     size: Vec<Part<'py>>,
@@ -96,6 +97,9 @@ impl Options<'_> {
             Some("paper") => mesher.segment_method(SegmentMethod::Paper),
             Some(_) => mesher.segment_method(SegmentMethod::Conform),
         };
+        if self.overlaps.as_deref() == Some("refuse") {
+            mesher = mesher.overlaps(Overlaps::Refuse);
+        }
         Ok(match self.repair {
             None => mesher,
             Some(tolerance) if tolerance < 0.0 => mesher.repair(),

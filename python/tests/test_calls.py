@@ -271,6 +271,15 @@ def test_graphs_are_read_and_written(tmp_path):
     assert (hexdel.read(tmp_path / "points.csv").points == graph.points).all()
 
 
+def test_columns_of_tables(tmp_path):
+    (tmp_path / "wells.csv").write_text("id,north,east\n1,5.0,2.0\n2,6.0,3.5\n")
+    assert hexdel.read(tmp_path / "wells.csv").points.tolist() == [[2.0, 5.0], [3.5, 6.0]]
+    turned = hexdel.read(tmp_path / "wells.csv", columns="2,3")
+    assert turned.points.tolist() == [[5.0, 2.0], [6.0, 3.5]]
+    with pytest.raises(hexdel.OptionError):
+        hexdel.read(tmp_path / "wells.csv", columns="2")
+
+
 def test_files_that_are_not_there_or_no_such(tmp_path):
     with pytest.raises(hexdel.MissingFileError) as caught:
         hexdel.read(tmp_path / "none.vtu")

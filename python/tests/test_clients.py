@@ -119,9 +119,7 @@ def rings(disv):
 
 def test_no_cell_has_an_edge_without_length():
     grid = np.stack(np.meshgrid(np.arange(4.0), np.arange(4.0)), axis=-1).reshape(-1, 2)
-    right = hexdel.Mesh(
-        grid, [t for i in (0, 1, 2, 4, 5, 6, 8, 9, 10) for t in ((i, i + 1, i + 5), (i, i + 5, i + 4))]
-    )
+    right = hexdel.Mesh(grid, [t for i in (0, 1, 2, 4, 5, 6, 8, 9, 10) for t in ((i, i + 1, i + 5), (i, i + 5, i + 4))])
     assert right.dual().summary["shortest_dual_edge"] == 0
     for ring in rings(right.to_flopy_disv()):
         # On a straight side of the boundary the vertex is a corner, too.
@@ -189,7 +187,30 @@ def test_polygons_of_every_kind(square):
             hexdel.mesh_polygons(bad)
 
 
-@pytest.mark.xfail(strict=False, reason="polygons are flooded from a point in each, so far")
+def test_overlaps_are_named():
+    shapely = pytest.importorskip("shapely")
+    squares = [shapely.box(0, 0, 2, 2), shapely.box(1, 1, 3, 3)]
+    with pytest.warns(hexdel.HexdelWarning, match="overlap"):
+        mesh = hexdel.mesh_polygons(squares)
+    area = mesh.quality().area
+    assert area[mesh.region_of_triangle == 0].sum() == pytest.approx(3)
+    assert area[mesh.region_of_triangle == 1].sum() == pytest.approx(4)
+    with pytest.raises(hexdel.InputError) as caught:
+        hexdel.mesh_polygons(squares, overlaps="refuse")
+    assert caught.value.kind == "overlaps" and "overlaps='later'" in str(caught.value)
+
+
+def test_polygons_of_a_file(tmp_path, square):
+    import json
+
+    corners, _, _ = square
+    ring, hole = ([list(map(float, p)) for p in part + part[:1]] for part in (corners[:4], corners[4:]))
+    (tmp_path / "plate.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [ring, hole]}))
+    graph = hexdel.read(tmp_path / "plate.geojson")
+    mesh = hexdel.mesh_pslg(**graph)
+    assert mesh.quality().area.sum() == pytest.approx(15) and (mesh.regions == 1).all()
+
+
 def test_islands_in_holes(square):
     shapely = pytest.importorskip("shapely")
     corners, _, _ = square

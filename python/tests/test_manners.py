@@ -187,8 +187,16 @@ numbers = st.floats(-4, 4).map(lambda x: round(x, 2)) | st.sampled_from(
     [0.0, -0.0, 1e-300, 1e300, -1e155, np.nan, np.inf, -np.inf, 1e-12, 1 + 1e-15, 2**53]
 )
 anything = st.recursive(
-    st.none() | st.booleans() | st.integers() | numbers | st.text(max_size=3) | st.binary(max_size=3) | st.complex_numbers(),
-    lambda inner: st.lists(inner, max_size=4) | st.tuples(inner, inner) | st.dictionaries(st.text(max_size=2), inner, max_size=2),
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | numbers
+    | st.text(max_size=3)
+    | st.binary(max_size=3)
+    | st.complex_numbers(),
+    lambda inner: (
+        st.lists(inner, max_size=4) | st.tuples(inner, inner) | st.dictionaries(st.text(max_size=2), inner, max_size=2)
+    ),
     max_leaves=8,
 )
 arrays = npst.arrays(
@@ -240,7 +248,18 @@ def test_anything_at_all(one, other):
 @given(anything, anything)
 def test_any_options(one, other):
     points = [(0, 0), (1, 0), (0.3, 0.8)]
-    for name in ("size", "method", "effort", "domain", "min_angle", "max_angle", "budget", "threads", "repair", "max_area"):
+    for name in (
+        "size",
+        "method",
+        "effort",
+        "domain",
+        "min_angle",
+        "max_angle",
+        "budget",
+        "threads",
+        "repair",
+        "max_area",
+    ):
         if name in ("size", "max_area", "domain") and isinstance(one, (int, float)) and 0 < abs(one) < 0.05:
             continue  # honest work, but much of it
         if name == "threads" and isinstance(one, int) and one > 8:

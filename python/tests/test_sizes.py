@@ -39,7 +39,9 @@ def test_an_array_per_point():
         lambda x, y: 0.03 + 0.3 * np.hypot(x - 0.3, y - 0.4),
         lambda x, y: 0.1 + 0.05 * np.sin(9 * x) * np.cos(7 * y),
         lambda x, y: 0.2,
-        lambda x, y: np.where((x - 0.71) ** 2 + (y - 0.71) ** 2 < 1e-4, 0.02, 0.02 + np.abs(np.hypot(x - 0.71, y - 0.71) - 0.01)),
+        lambda x, y: np.where(
+            (x - 0.71) ** 2 + (y - 0.71) ** 2 < 1e-4, 0.02, 0.02 + np.abs(np.hypot(x - 0.71, y - 0.71) - 0.01)
+        ),
     ],
     ids=["cone", "waves", "constant", "hidden"],
 )

@@ -74,8 +74,8 @@ pub(crate) fn test() -> Outcome {
     let oldest = pythons.into_iter().next().unwrap_or(newest);
     let other = package.environment("other", &oldest)?;
     other.pip(TOOLS)?;
-    for (what, file) in [("the wheel", &wheel), ("the sdist", &sdist)] {
-        eprintln!("python: {what} in a fresh environment of {}", oldest.display());
+    for (what, file) in [("the wheel", wheel), ("the sdist", other.unpack(&sdist)?)] {
+        eprintln!("python: {what} in an environment of {}", oldest.display());
         other.pip(&["--force-reinstall", "--no-deps", &file.display().to_string()])?;
         other.run("pytest", &["-q", "-p", "no:cacheprovider", &package.tests("test_calls.py")])?;
     }
@@ -124,7 +124,8 @@ fn build(package: &Package, tools: &Environment) -> Result<[PathBuf; 2], Box<dyn
     let manifest = package.source.join("Cargo.toml").display().to_string();
     let folder = out.display().to_string();
     let begun = Instant::now();
-    let mut arguments = vec!["build", "--release", "--locked", "--manifest-path", &manifest, "--out", &folder];
+    let mut arguments =
+        vec!["build", "--release", "--locked", "--manifest-path", &manifest, "--out", &folder];
     if zig {
         arguments.extend(["--zig", "--compatibility", "manylinux2014"]);
     }
@@ -170,7 +171,10 @@ impl Environment {
     }
 
     fn pip(&self, arguments: &[&str]) -> Outcome {
-        self.run("python", &[&["-m", "pip", "install", "-q", "--disable-pip-version-check"], arguments].concat())
+        self.run(
+            "python",
+            &[&["-m", "pip", "install", "-q", "--disable-pip-version-check"], arguments].concat(),
+        )
     }
 
     /// Installs packages, one by one if they do not install together. Whether all did.
@@ -188,6 +192,18 @@ impl Environment {
         }
         eprintln!("python: {what} in {:.0} s", begun.elapsed().as_secs_f64());
         all
+    }
+
+    /// The folder in a source distribution, always in the same place, so that what cargo
+    /// makes of it is found again.
+    fn unpack(&self, sdist: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
+        let folder = self.folder.join("sdist");
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder)?;
+        let [from, to] = [sdist, &folder].map(|path| path.display().to_string());
+        self.run("python", &["-m", "tarfile", "-e", &from, &to])?;
+        let mut entries = fs::read_dir(&folder)?;
+        entries.next().map_or_else(|| Err("the sdist is empty".into()), |entry| Ok(entry?.path()))
     }
 
     /// All tests, and the examples in docstrings, of what is installed.
@@ -219,7 +235,7 @@ impl Environment {
 }
 
 fn run(command: &mut Command) -> Outcome {
-    let status = command.status().map_err(|error| format!("{:?}: {error}", command.get_program()))?;
+    let status = command.status().map_err(|error| format!("{}: {error}", command.get_program().display()))?;
     if status.success() { Ok(()) } else { Err(format!("{command:?} failed ({status})").into()) }
 }
 
@@ -228,12 +244,13 @@ fn interpreters() -> Vec<PathBuf> {
     let mut found = Vec::new();
     for minor in MINORS {
         let name = format!("python3.{minor}");
-        let of_pyenv = env::home_dir().map(|home| home.join(".pyenv/versions")).into_iter().flat_map(|folder| {
-            let versions = fs::read_dir(folder).into_iter().flatten().flatten();
-            let mut versions: Vec<PathBuf> = versions.map(|entry| entry.path()).collect();
-            versions.sort();
-            versions.into_iter().map(|version| version.join("bin/python3"))
-        });
+        let of_pyenv =
+            env::home_dir().map(|home| home.join(".pyenv/versions")).into_iter().flat_map(|folder| {
+                let versions = fs::read_dir(folder).into_iter().flatten().flatten();
+                let mut versions: Vec<PathBuf> = versions.map(|entry| entry.path()).collect();
+                versions.sort();
+                versions.into_iter().map(|version| version.join("bin/python3"))
+            });
         let candidates = std::iter::once(PathBuf::from(&name)).chain(of_pyenv);
         found.extend(candidates.into_iter().find(|python| version(python) == Some(minor)));
     }
