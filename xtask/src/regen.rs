@@ -29,8 +29,10 @@ const FIXTURES: &str = "fixtures";
 /// Where nothing else may lie, below the documents.
 const FOLDERS: [&str; 3] = [figures::FOLDER, gallery::FOLDER, prove::FOLDER];
 
-/// Where the records lie, below the workspace's folder.
+/// Where the records lie, below the workspace's folder: of all meshes, and of those that are
+/// small enough to be there as a whole.
 const RECORDS: &str = "crates/hexdel/tests/snapshots";
+const WHOLE: &str = "crates/hexdel/tests/whole";
 
 /// Rebuilds, or compares, everything.
 pub(crate) fn run(check: bool) -> Outcome {
@@ -102,6 +104,10 @@ fn remove_orphans(root: &Path) -> Outcome {
             std::fs::remove_file(root.join(RECORDS).join(name))?;
         }
     }
+    // Which meshes are small is known when they have been made: all are written anew.
+    for name in names(&root.join(WHOLE))? {
+        std::fs::remove_file(root.join(WHOLE).join(name))?;
+    }
     Ok(())
 }
 
@@ -119,11 +125,11 @@ fn fixture_of(record: &str) -> Option<String> {
 fn records(root: &Path, check: bool) -> Outcome {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(root).args(["test", "--quiet", "--package", "hexdel", "--features", "spade"]);
-    cargo.args(["--test", "snapshots"]);
+    cargo.args(["--test", "snapshots", "--test", "whole_meshes"]);
     cargo.env("INSTA_UPDATE", if check { "no" } else { "always" }).env_remove("INSTA_FORCE_PASS");
     if !check {
         // Whether all records are there is a question for afterwards.
-        cargo.args(["--", "templates", "simple", "compact", "graphs"]);
+        cargo.args(["--", "templates", "simple", "compact", "graphs", "whole"]);
     }
     let status = cargo.status()?;
     if status.success() { Ok(()) } else { Err("the records of the snapshot tests do not hold".into()) }
