@@ -57,7 +57,7 @@ fn begin_with(
     if let Some(promised) = promised {
         field_data(out, promised)?;
     }
-    write!(out, "<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n<Points>\n",)?;
+    write!(out, "<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n<Points>\n")?;
     let coordinates = points.iter().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
     let attributes = "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"";
     array(out, attributes, 3 * count, coordinates)?;

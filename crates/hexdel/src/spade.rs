@@ -133,7 +133,8 @@ pub fn delaunay_of(mesh: &TriMesh) -> Result<DelaunayTriangulation<Point2<f64>>,
 }
 
 /// A constrained triangulation of a mesh's vertices with edges that must be in it. With all
-/// edges of a mesh of a convex domain ([`edges_of`]) its faces are the mesh's triangles.
+/// edges of a mesh of a convex domain ([`edges_of`]) its faces are the mesh's triangles, and
+/// slivers of no width along sides that rounding bent inwards.
 ///
 /// # Errors
 ///

@@ -25,12 +25,18 @@ fn a_mesh_comes_back_as_it_was() {
         let there = constrained_of(&made.mesh, &edges_of(&made.mesh)).unwrap();
         let back = mesh_of(&there);
         assert_eq!(back.vertices, made.mesh.vertices);
-        assert_eq!(triangles(&back), triangles(&made.mesh), "{name}");
+        // Where rounding bent a side of the domain inwards, spade fills the hull with slivers.
+        let (there, ours) = (triangles(&back), triangles(&made.mesh));
+        assert!(ours.is_subset(&there), "{name}");
+        for sliver in there.difference(&ours) {
+            let [a, b, c] = sliver.map(|v| back.vertices[v]);
+            assert!(0.5 * (b - a).perp_dot(c - a) < 1e-12 * (b - a).length_squared(), "{name}: {sliver:?}");
+        }
         // Spade's own Delaunay triangulation has as many triangles, and the same but for
         // diagonals of points on a circle.
         let delaunay = mesh_of(&delaunay_of(&made.mesh).unwrap());
         assert_eq!(delaunay.vertices, made.mesh.vertices);
-        assert_eq!(delaunay.triangles.len(), made.mesh.triangles.len());
+        assert_eq!(delaunay.triangles.len(), back.triangles.len());
     }
 }
 
