@@ -20,7 +20,6 @@ const STEPS: &[&str] = &[
     "clippy --workspace --all-targets -- -D warnings",
     "doc --workspace --no-deps",
     "test --workspace",
-    "xtask regen --check",
 ];
 
 /// Runs all steps, up to the first that fails.

@@ -197,7 +197,7 @@ pub fn read_points(path: impl AsRef<Path>) -> Result<Pslg, ReadError> {
 ///
 /// let text = "POLYGON ((0 0, 4 0, 0 4, 0 0), (1 1, 2 1, 1 2, 1 1))";
 /// let pslg = read_points_from(text.as_bytes(), PointFormat::Wkt, "inline")?;
-/// assert_eq!((pslg.segments.len(), pslg.holes.len(), pslg.regions.len()), (6, 1, 1));
+/// assert_eq!((pslg.segments.len(), pslg.polygons.len()), (6, 1));
 ///
 /// let error = read_points_from("1 2\n0 0.5 NaN\n".as_bytes(), PointFormat::Node, "a.node");
 /// assert_eq!(

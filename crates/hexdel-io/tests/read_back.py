@@ -103,8 +103,7 @@ def msh(path):
 
 
 def msh2(path):
-    if integral:
-        return msh(path)
+    # Of version 2.2 meshio does not divide data of elements among its blocks.
     lines = path.read_text().splitlines()
     section = lambda name: lines[lines.index(f"${name}") + 1 : lines.index(f"$End{name}")]
     nodes = [line.split() for line in section("Nodes")[1:]]
@@ -116,7 +115,7 @@ def msh2(path):
     order, found = zip(*(map(float, line.split()) for line in lines[end - len(elements) : end]))
     cells = [[tags[corner] for corner in elements[str(int(i))][-3:]] for i in order]
     sort = lambda rows, values: sorted(zip(map(tuple, rows), values))
-    assert sort(cells, found) == sort(triangles.tolist(), regions), path
+    assert sort(cells, found) == sort(triangles.tolist(), exempt if integral else regions), path
 
 
 def medit(path):

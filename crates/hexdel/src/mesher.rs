@@ -4,7 +4,7 @@ use crate::compact::{Again, Ended, Time, Work};
 use crate::error::Error;
 use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
-use crate::shortest::shortest_edge;
+use crate::shortest::of_placement;
 use crate::size::{Size, SizeError};
 use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
@@ -476,9 +476,6 @@ impl Mesher {
         } else {
             (refiner.extract(domain, relocation, monitor)?, domain)
         };
-        // A single site has no scale but that of the lattice around it.
-        let alone = placement.closest.map_or(placement.lattice.spacing(0), |_| f64::INFINITY);
-        let wanted = self.size.is_some().then_some(least.min(alone));
         let mut ended = Ended { reached: true, spent: false };
         if optimize {
             let work = Work { bounds, effort: self.effort, size: self.size.as_ref(), monitor };
@@ -488,9 +485,8 @@ impl Mesher {
             }
         }
         let extracted = Instant::now();
-
         check(monitor)?;
-        let min_edge = shortest_edge([placement.closest, wanted]);
+        let min_edge = of_placement(placement, self.size.is_some().then_some(least));
         let certificate = match self.finish(&mut dual, (bounds, min_edge), points, monitor) {
             // Without optimisation the mesh is a last resort at any bounds.
             Err(Error::NotCertified { mesh, certificate })

@@ -5,7 +5,7 @@
 //! less: a size that is wanted, and in a session, whose domain is there before its points,
 //! the distance of a point to a corner or side of it.
 
-use crate::placement::{corners, finest_spacing};
+use crate::placement::{Placement, corners, finest_spacing};
 use crate::size::Size;
 use hexdel_geom::{DVec2, PointSet, TriMesh, closest_pair};
 use hexdel_optimize::Sizing;
@@ -15,9 +15,16 @@ use hexdel_optimize::Sizing;
 const SHORTEST_EDGE: f64 = 0.127_293_769_304_328_9;
 
 /// The shortest edge that there may be where nothing asks for less than `features`.
-pub(crate) fn shortest_edge(features: impl IntoIterator<Item = Option<f64>>) -> Option<f64> {
+fn shortest_edge(features: impl IntoIterator<Item = Option<f64>>) -> Option<f64> {
     let least = features.into_iter().flatten().min_by(f64::total_cmp)?;
     Some(SHORTEST_EDGE * least)
+}
+
+/// The same of points in a mesh made at once, and of the least size wanted. A single point has
+/// no scale but that of the lattice around it.
+pub(crate) fn of_placement(placement: &Placement, wanted: Option<f64>) -> Option<f64> {
+    let alone = placement.closest.map_or(placement.lattice.spacing(0), |_| f64::INFINITY);
+    shortest_edge([placement.closest, wanted.map(|wanted| wanted.min(alone))])
 }
 
 /// The same of the mesh of a session in a hexagon: what its points, its domain and its sizes

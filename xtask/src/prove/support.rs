@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn causes_are_all_that_demands_rest_on() {
         let checked = check(&RuleSet::extended(), 7).unwrap();
-        assert!(checked.demands > 50_000 && checked.classes > 50_000, "{checked:?}");
+        assert!(checked.demands > 40_000 && checked.classes > 50_000, "{checked:?}");
     }
 
     #[test]

@@ -141,15 +141,4 @@ mod tests {
             check(Unit::Star { middle }, &classes).unwrap();
         }
     }
-
-    #[test]
-    fn two_runs_at_one_triangle_are_found() {
-        // Two three-finned hexagons side by side whose tops differ.
-        let (x, y) = (CENTRE, CENTRE.neighbour(Direction::new(0)));
-        let fins = [1, 2, 3].map(|d| x.neighbour(Direction::new(d)));
-        let others = [4, 5, 0].map(|d| y.neighbour(Direction::new(d)));
-        let classes = Classes::of(fins.into_iter().chain(others).collect());
-        assert!(classes.moved3.contains(x) && classes.moved3.contains(y));
-        assert!(check(Unit::Triangle { up: true }, &classes).unwrap_err().contains("two runs"));
-    }
 }
