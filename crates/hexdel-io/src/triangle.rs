@@ -135,6 +135,9 @@ fn input_indices(points: &Pslg) -> Option<Vec<Option<u32>>> {
     distinct.windows(2).all(|w| w[0] < w[1]).then_some(indices)
 }
 
+/// Attributes of a point, at most: what rows lack is filled in, however many a header claims.
+const MOST_ATTRIBUTES: usize = 1000;
+
 fn point_section<R: BufRead>(
     lines: &mut Lines<R>,
     pslg: &mut Pslg,
@@ -146,7 +149,11 @@ fn point_section<R: BufRead>(
     if dimension != 2 {
         return Err(header.row.malformed("dimension 2", found));
     }
+    let found = header.peek();
     let attributes = header.integer_or(0usize, "the number of attributes")?;
+    if attributes > MOST_ATTRIBUTES {
+        return Err(header.row.malformed("a thousand attributes at most", found));
+    }
     let markers = marker_column(&mut header)?;
     end(header, mends)?;
 

@@ -215,6 +215,8 @@ def ron_value(tokens):
     if token == "Some":
         [value] = ron_value(tokens)
         return value
+    if re.fullmatch("[a-z_]+", token) and token not in ("true", "false"):
+        return token
     if token not in "([":
         return json.loads(token)
     items, fields = [], {}
