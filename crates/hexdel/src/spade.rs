@@ -1,4 +1,4 @@
-//! Triangulations of the crate [`spade`](::spade) and meshes of ours, from one to the other;
+//! Triangulations of the crate `spade` and meshes of ours, from one to the other;
 //! behind the feature `spade`.
 //!
 //! | from | to | |
