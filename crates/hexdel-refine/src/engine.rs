@@ -152,14 +152,14 @@ impl Refiner {
         self.sites.occupants(self.grid.lattice())
     }
 
-    /// The mesh of the grid: what [`extract`](hexdel_classify::extract) makes of it and of all
+    /// The mesh of the grid: what [`extract`] makes of it and of all
     /// points, sooner. Points are taken in the order in which memory holds them
     /// and their tiles; that the rules keep their rings apart makes it the same
     /// mesh.
     ///
     /// # Errors
     ///
-    /// As [`extract`](hexdel_classify::extract).
+    /// As [`extract`].
     pub fn extract(
         &mut self,
         domain: Domain,
