@@ -1,4 +1,4 @@
-"""Triangle meshes with every angle between 43.9 and 90 degrees, certified.
+"""Triangle meshes with every angle between 43.89 and 90 degrees, certified.
 
 >>> import hexdel
 >>> mesh = hexdel.mesh([(0.0, 0.0), (1.0, 0.2), (0.3, 0.7)])

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! so the angle's tangent is `sqrt(3) X / D`. The smallest angle of section 5.4
-//! has tangent `5 / (3 sqrt 3)`, hence `angle >= 43.9 degrees` is `9 X >= 5 D`:
+//! has tangent `5 / (3 sqrt 3)`, hence `angle >= 43.89 degrees` is `9 X >= 5 D`:
 //! no rounding, no tolerance. All templates of [`crate::relocate`] are multiples
 //! of `1 / Offset::UNIT` of a lattice step.
 
@@ -114,7 +114,7 @@ pub struct ExactBounds {
 }
 
 impl ExactBounds {
-    /// 43.9 to 90 degrees: `sqrt(3) X / D >= 5 / (3 sqrt 3)`, and `D >= 0`.
+    /// 43.89 to 90 degrees: `sqrt(3) X / D >= 5 / (3 sqrt 3)`, and `D >= 0`.
     pub const EXTENDED: Self = Self { min: (9, 5), max: (0, -1) };
 
     /// 30 to 120 degrees: `sqrt(3) X / D >= 1 / sqrt(3)`, and

@@ -4,7 +4,7 @@
 //! A full hexagon that is not subdivided is a vertex of the dual. Where finer
 //! hexagons touch it, or an input point lies in or near it, that vertex is
 //! moved by one of a small set of templates so that every angle comes to lie
-//! between 43.9 and 90 degrees. All templates are rational on the lattice, so
+//! between 43.89 and 90 degrees. All templates are rational on the lattice, so
 //! whether a triangle keeps the bounds is decided in integers.
 //!
 //! | module | what |

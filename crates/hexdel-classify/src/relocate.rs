@@ -90,7 +90,7 @@ pub fn star_points(middle: Direction, before: bool, after: bool) -> [Offset; 3] 
 ///
 /// ```text
 ///     g2----g1        The angle at g1 between p and g0 is smallest where p
-///    /  \  /  \       leans away from it. It reaches 43.9 degrees on a line
+///    /  \  /  \       leans away from it. It reaches 43.89 degrees on a line
 ///   g3---C---g0       through g1 that cuts the axis C g0 at 2/7 of a step;
 ///    \  /  \  /       the twelve such lines bound a dodecagon around the
 ///     g4----g5        half-size hexagon, whose corners it has.

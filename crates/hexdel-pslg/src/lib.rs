@@ -5,7 +5,7 @@
 //! only made fine enough for the segments; they are embedded into its dual
 //! mesh, and an optimiser brings the angles around them between 30 and 90
 //! degrees. Two edges away from points and segments the bounds of the plain
-//! mesh hold, 43.9 to 90 degrees. No angle is obtuse, so that segments are edges
+//! mesh hold, 43.89 to 90 degrees. No angle is obtuse, so that segments are edges
 //! of the Delaunay triangulation of the vertices, not only of a constrained one.
 //!
 //! [`validate`] says whether a graph is planar, [`repair`] makes it so, [`mesh`]

@@ -66,7 +66,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// A hexagon, 30 to 90 degrees near segments, 43.9 to 90 elsewhere, no
+    /// A hexagon, 30 to 90 degrees near segments, 43.89 to 90 elsewhere, no
     /// limit on areas, standard effort to remove vertices, 50 million triangles, four retries.
     fn default() -> Self {
         Self {

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | [`rule`] | what a rule is, and the two sets of rules |
 //! | [`simple`] | rules for 30 to 120 degrees, section 4.1 |
-//! | [`extended`] | rules for 43.9 to 90 degrees, section 5.2 |
+//! | [`extended`] | rules for 43.89 to 90 degrees, section 5.2 |
 //! | [`triangle`] | the rule that section 5.2 lacks |
 //! | [`coarse`] | rules for coarse starts of an optimiser |
 //! | [`sites`] | input points and the hexagons they occupy |

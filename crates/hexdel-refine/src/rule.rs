@@ -80,7 +80,7 @@ impl RuleSet {
     }
 
     /// The rules of sections 4.1 and 5.2 and the triangle rule: angles between
-    /// 43.9 and 90 degrees.
+    /// 43.89 and 90 degrees.
     pub fn extended() -> Self {
         let rules = simple::RULES.iter().chain(extended::RULES).chain(triangle::RULES);
         // A hexagon that has fins or is a top, and what other rules ask for is

@@ -1,4 +1,4 @@
-//! Triangle meshes with every angle between 43.9 and 90 degrees, certified.
+//! Triangle meshes with every angle between 43.89 and 90 degrees, certified.
 //!
 //! hexdel turns a set of points into a Delaunay mesh in which every point is a
 //! vertex and no angle is smaller than 43.89 or larger than 90 degrees, for
@@ -31,7 +31,7 @@
 //! | [`classify`] | classes of hexagons, templates, the dual mesh |
 //! | [`refine`] | the rules engine |
 //! | [`optimize`] | local optimisation to angle bounds |
-//! | [`pslg`] | segments, holes and regions |
+//! | [`pslg`] | segments, holes, regions and polygons |
 //! | [`io`] | formats and pictures |
 
 /// The examples of the README, so that they stay true.

@@ -24,12 +24,12 @@ use std::time::{Duration, Instant};
 #[non_exhaustive]
 pub enum Method {
     /// The paper's extended refinement and relocation templates (section 5):
-    /// 43.9 to 90 degrees. No optimisation: fast, many triangles.
+    /// 43.89 to 90 degrees. No optimisation: fast, many triangles.
     Templates,
     /// The paper's simple refinement (section 4): 30 to 120 degrees, about a
     /// quarter of the triangles.
     Simple,
-    /// Optimisation of a mesh of the grid to any bounds: with 43.9 to 90
+    /// Optimisation of a mesh of the grid to any bounds: with 43.89 to 90
     /// degrees, about a thirteenth of the templates' triangles in fifty times
     /// their time.
     ///
@@ -169,7 +169,7 @@ pub fn triangulate(points: &[DVec2]) -> Result<Triangulation, Error> {
 }
 
 impl Mesher {
-    /// The default options: compact, 43.9 to 90 degrees, the tightest domain,
+    /// The default options: compact, 43.89 to 90 degrees, the tightest domain,
     /// all threads.
     pub fn new() -> Self {
         Self::default()
@@ -193,7 +193,7 @@ impl Mesher {
     /// The bounds that the mesh is held to, by default those the method keeps.
     /// They may be wider; narrower ones are for
     /// [`Method::Compact`] only. Of graphs, the default is 30 to 90 degrees in
-    /// triangles at most one edge away from a point or segment, and 43.9 to 90
+    /// triangles at most one edge away from a point or segment, and 43.89 to 90
     /// elsewhere.
     ///
     /// ```
@@ -315,9 +315,9 @@ impl Mesher {
         self
     }
 
-    /// The wall-clock time that [`Method::Compact`] may spend on optimisation,
-    /// by default as long as it takes; nothing to the other methods. However
-    /// short, the mesh is valid; how compact it gets depends on the machine. The
+    /// The wall-clock time from the call on after which [`Method::Compact`] ends
+    /// optimisation, by default as long as it takes; nothing to the other methods.
+    /// However short, the mesh is valid; how compact it gets depends on the machine. The
     /// mesh of a graph has every segment in it, but angles may be left out of
     /// bounds that more time would mend.
     ///

@@ -34,10 +34,10 @@ pub(crate) struct Args {
     /// File of points that must be vertices, bit for bit, and of segments
     #[arg(long)]
     input: Option<PathBuf>,
-    /// Smallest angle allowed, degrees [default: the file's]
+    /// Smallest angle, degrees [default: the file's; 0 with --max-angle]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     min_angle: Option<f64>,
-    /// Largest angle allowed, degrees [default: the file's; else 90]
+    /// Largest angle, degrees [default: the file's; 90 with --min-angle]
     #[arg(long, value_name = "B", allow_negative_numbers = true)]
     max_angle: Option<f64>,
     #[command(flatten)]

@@ -17,7 +17,7 @@ const CONFLICT_REACH: f64 = 4.154_700_539;
 /// How the start is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rule {
-    /// All rules and templates: within 43.9 and 90 degrees.
+    /// All rules and templates: within 43.89 and 90 degrees.
     Templates,
     /// Legal classes only: not within any bounds yet.
     Coarse(Coarse),

@@ -61,7 +61,7 @@ const STEPS: u32 = 3;
 /// # Guarantees
 ///
 /// Those of a [`Session`](super::Session): after every call the mesh is a
-/// Delaunay mesh of the domain, here with angles of 43.9 to 90 degrees, with every
+/// Delaunay mesh of the domain, here with angles of 43.89 to 90 degrees, with every
 /// point a vertex bit for bit and every edge within the size. A call that fails changes nothing.
 #[derive(Clone, Debug)]
 pub struct TemplateSession {
