@@ -27,8 +27,8 @@ enum Task {
     Tidy,
     /// Measure time and memory, side by side with spade
     Bench(bench::Args),
-    /// Rebuild the records of the snapshot tests and the figures of the
-    /// documents from the fixtures
+    /// Rebuild all that is computed: computed fixtures, records of the snapshot
+    /// tests, the proof, the figures of the documents and the gallery
     Regen {
         /// Change nothing; fail if anything would change
         #[arg(long)]

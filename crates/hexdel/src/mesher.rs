@@ -281,7 +281,7 @@ impl Mesher {
     }
 
     /// Whether hexagons are merged again where all rules allow it (section
-    /// 5.3): a tenth fewer triangles. On by default; always, for graphs.
+    /// 5.3): up to 7 % fewer triangles. On by default; always, for graphs.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, Method, generate};
