@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
         args.arguments.iter().map(String::as_str).partition(|a| a.starts_with('-') && *a != "-");
     let mut switches = Switches::parse(given)?;
     let [file] = files[..] else {
-        return Err(Failure::Switch { switch: files.join(" "), why: "one file is needed" });
+        return Err(Failure::Switch { switch: files.join(" "), why: "one file is needed".to_owned() });
     };
     match Path::new(file).extension().and_then(|e| e.to_str()) {
         Some(e) if e.eq_ignore_ascii_case("poly") => switches.graph = true,
@@ -111,8 +111,9 @@ fn wanted_of(input: &Pslg, switches: &Switches) -> Pslg {
 fn mesher(switches: &Switches, points: bool) -> Result<Mesher, Failure> {
     let mut mesher = Mesher::new().method(Method::Compact);
     if !points {
-        // Triangle divides segments where they meet, and so do we, with a word on each.
-        mesher = mesher.repair();
+        // Triangle divides segments where they meet, and so do we, with a word on each. What only
+        // comes near stays where it is.
+        mesher = mesher.repair_within(0.0);
     }
     if switches.hull || points {
         mesher = mesher.domain(Domain::Hull);

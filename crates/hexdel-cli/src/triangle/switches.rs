@@ -80,16 +80,20 @@ impl Switches {
     }
 
     fn take(&mut self, letter: char, number: &str) -> Result<(), Failure> {
-        let refuse = |why| Err(Failure::Switch { switch: format!("{letter}{number}"), why });
+        let refuse =
+            |why: &str| Err(Failure::Switch { switch: format!("{letter}{number}"), why: why.to_owned() });
         match (letter, number) {
             ('p', _) => self.graph = true,
             ('q' | 'a', "") => {
                 self.region_areas |= letter == 'a';
             }
-            ('q' | 'a', number) => match number.parse() {
-                Ok(value) if letter == 'q' => self.min_angle = Some(value),
+            ('q', number) => match number.parse() {
+                Ok(value) => self.min_angle = Some(value),
+                Err(_) => return refuse(&format!("the smallest angle must be a number, got {number}")),
+            },
+            ('a', number) => match number.parse() {
                 Ok(value) if value > 0.0 => self.max_area = Some(value),
-                _ => return refuse("no positive number"),
+                _ => return refuse(&format!("the largest area must be positive, got {number}")),
             },
             ('A', _) => self.regions = true,
             ('c', _) => self.hull = true,
@@ -141,8 +145,8 @@ mod tests {
             ("-S100", "-S100: the number"),
             ("-pq30r", "-r: meshes"),
             ("-o3", "-o3: there are"),
-            ("-a0", "-a0: no positive"),
-            ("-q1.2.3", "-q1.2.3: no positive"),
+            ("-a0", "-a0: the largest area must be positive, got 0"),
+            ("-q1.2.3", "-q1.2.3: the smallest angle must be a number, got 1.2.3"),
             ("-k", "-k: no such switch"),
             ("-p\u{e9}", "no such switch"),
         ] {

@@ -177,6 +177,20 @@ fn segments_that_meet_are_divided_with_a_warning() {
     assert_eq!(bench.run("triangle -pcQ alone").code, 0);
 }
 
+/// A point that nearly lies on a segment is not on it: seen from the ends at 0.01 degrees.
+#[test]
+fn segments_are_not_bent_to_points_near_them() {
+    let bench = Bench::new();
+    bench.file(
+        "near.poly",
+        "6 2\n1 0 0\n2 10 0\n3 10 4\n4 0 4\n5 5 0.0009\n6 5 0.000900005\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n",
+    );
+    bench.run("triangle -Q near.poly").fine();
+    bench.run("check near.1.ele --input near.poly").fine();
+    let nodes = rows(&bench, "near.1.node");
+    assert_eq!((&nodes[4][1..3], &nodes[5][1..3]), (&[5.0, 0.0009][..], &[5.0, 0.000_900_005][..]));
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let bench = bench_with("square_with_hole");
@@ -188,6 +202,8 @@ fn what_does_not_fit_is_refused() {
         ("-p missing", "missing.poly: no such file"),
         ("-pI in", "-I: the input is not replaced"),
         ("-pr in", "-r: meshes are not refined"),
+        ("-pa0 in", "-a0: the largest area must be positive, got 0"),
+        ("-pq1.2.3 in", "-q1.2.3: the smallest angle must be a number, got 1.2.3"),
     ] {
         bench.run(&format!("triangle {arguments}")).refused(words);
         assert_eq!(bench.names(), ["in.poly"], "{arguments}");
