@@ -1,7 +1,7 @@
 //! `hexdel convert`: a mesh or points from one format to another.
 
 use crate::exit::{Failure, Outcome, Verdict, warn};
-use crate::input::{is_stream, names, warn_of};
+use crate::input::{is_stream, names, no_table, refuse_columns, warn_of};
 use crate::outputs::Outputs;
 use hexdel::Mesher;
 use hexdel::geom::Pslg;
@@ -123,6 +123,7 @@ impl Args {
         match (mesh, points) {
             (Some(MeshFormat::NodeEle), Some(points)) if to_points => self.points(points),
             (Some(mesh), Some(points)) if matches!(mesh, MeshFormat::Json | MeshFormat::Ron) => {
+                self.refuse_columns()?;
                 let bytes = self.bytes()?;
                 let name = name(&self.input, "input");
                 if holds_mesh(&bytes, mesh) {
@@ -142,6 +143,7 @@ impl Args {
     }
 
     fn mesh(&self, format: MeshFormat) -> Result<Content, Failure> {
+        self.refuse_columns()?;
         let by_extension = MeshFormat::from_path(&self.input) == Some(format);
         Ok(Content::Mesh(if by_extension && !is_stream(&self.input) {
             read_mesh_data(&self.input)?
@@ -158,7 +160,13 @@ impl Args {
             self.reader().read_from(self.open()?, format, &name(&self.input, "input"))?
         };
         warn_of(&file);
+        refuse_columns(self.columns.as_ref(), &file, &self.input)?;
         Ok(Content::Points(file.pslg))
+    }
+
+    /// Of what cannot be a table.
+    fn refuse_columns(&self) -> Result<(), Failure> {
+        if self.columns.is_some() { no_table(&self.input) } else { Ok(()) }
     }
 
     fn reader(&self) -> PointReader {

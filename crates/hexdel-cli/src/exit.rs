@@ -1,6 +1,7 @@
 //! How a command ends: errors, exit codes, and text that a closed pipe may cut.
 
 use crate::{remedy, snippet};
+use clap::Command;
 use hexdel::geom::BoundsError;
 use hexdel_io::{ReadError, WriteError};
 use miette::Diagnostic;
@@ -56,7 +57,6 @@ pub(crate) enum Failure {
     #[diagnostic(help("a mesh goes to a format of meshes, points to one of points"))]
     Conversion { file: String, found: &'static str, format: String },
     #[error("standard {stream} has no extension to tell its format")]
-    #[diagnostic(help("name it with --format, or --input-format"))]
     NoFormat { stream: &'static str },
     #[error("standard output: {0}")]
     Stdout(io::Error),
@@ -66,11 +66,13 @@ pub(crate) enum Failure {
     Size { file: String, source: hexdel::SizeError },
     #[error("{failed} commands failed")]
     Commands { failed: usize },
+    #[error("{option} has no effect: {why}")]
+    Unused { option: &'static str, why: String },
     #[error("{name}: no format of {what}")]
     UnknownFormat { name: String, what: &'static str },
     #[error("-{switch}: {why}")]
     #[diagnostic(help("docs/triangle-users.md says what each switch does here"))]
-    Switch { switch: String, why: &'static str },
+    Switch { switch: String, why: String },
     #[error("no JSON of the figures: {0}")]
     Json(#[from] serde_json::Error),
 }
@@ -87,9 +89,14 @@ impl Failure {
     }
 }
 
+/// An option that was given and has nothing to act on.
+pub(crate) fn unused<T>(option: &'static str, why: &str) -> Result<T, Failure> {
+    Err(Failure::Unused { option, why: why.to_owned() })
+}
+
 /// Reports a failure on standard error and gives the exit code: 0 done, 1 a
 /// check failed, 2 bad input, usage or system, 3 done within the time given.
-pub(crate) fn finish(outcome: Outcome) -> ExitCode {
+pub(crate) fn finish(outcome: Outcome, command: Option<&Command>) -> ExitCode {
     match outcome {
         Ok(Verdict::Holds) => ExitCode::SUCCESS,
         Ok(Verdict::Fails) => ExitCode::from(1),
@@ -101,7 +108,9 @@ pub(crate) fn finish(outcome: Outcome) -> ExitCode {
             {
                 let _ = write!(io::stderr(), "{snippet}");
             }
-            if let Some(help) = remedy::of(&failure).or_else(|| failure.help().map(|help| help.to_string())) {
+            if let Some(help) =
+                remedy::of(&failure, command).or_else(|| failure.help().map(|help| help.to_string()))
+            {
                 complain("help", &help);
             }
             ExitCode::from(failure.code())

@@ -1,7 +1,7 @@
 //! `hexdel generate`: test points.
 
-use crate::exit::{Outcome, Verdict};
-use crate::input::{Formats, is_stream};
+use crate::exit::{Outcome, Verdict, unused};
+use crate::input::{format_of_points, is_stream, names};
 use crate::outputs::{Outputs, to_stdout};
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
@@ -16,7 +16,7 @@ const MAX_POINTS: u64 = 100_000_000;
 
 /// Make points to test with
 #[derive(clap::Args)]
-#[command(mut_arg("columns", |arg| arg.hide(true)), after_help = "\
+#[command(after_help = "\
     The same kind, number and seed give the same file everywhere.\n\n\
     Example:\n  hexdel generate spiral 1000 --seed 7 -o spiral.node")]
 pub(crate) struct Args {
@@ -32,8 +32,9 @@ pub(crate) struct Args {
     /// Where to: .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron or -
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    #[command(flatten)]
-    formats: Formats,
+    /// Format of `-`
+    #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
+    format: Option<String>,
 }
 
 fn kinds() -> impl clap::builder::TypedValueParser<Value = Kind> {
@@ -44,10 +45,13 @@ fn kinds() -> impl clap::builder::TypedValueParser<Value = Kind> {
 pub(crate) fn run(args: &Args) -> Outcome {
     let points = || Pslg::from_points(generate(args.kind, args.n as usize, args.seed));
     if is_stream(&args.output) {
-        let format = args.formats.of_points()?;
+        let format = format_of_points(args.format.as_ref())?;
         let write =
             |out: &mut dyn Write| Ok(hexdel_io::write_points_to(out, format, &points(), "standard output")?);
         return to_stdout(write).map(|()| Verdict::Holds);
+    }
+    if args.format.is_some() {
+        return unused("--format", "it names the format of -, files have that of their extension");
     }
     let mut outputs = Outputs::default();
     outputs.add_points(&args.output)?;

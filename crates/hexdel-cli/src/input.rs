@@ -1,6 +1,6 @@
 //! Reading files, or standard input where a file is called `-`.
 
-use crate::exit::{Failure, warn};
+use crate::exit::{Failure, unused, warn};
 use clap::builder::PossibleValuesParser;
 use hexdel_io::{Columns, MeshData, MeshFormat, PointFile, PointFormat, PointReader};
 use std::io;
@@ -31,15 +31,43 @@ pub(crate) fn names() -> PossibleValuesParser {
     PossibleValuesParser::new(names)
 }
 
+/// What a command reads and writes, of that which options are about.
+pub(crate) struct Streams {
+    /// Whether standard input is read.
+    pub(crate) input: bool,
+    /// Whether standard output is written, as a mesh or points.
+    pub(crate) output: bool,
+    /// Whether points are read, which may be a table.
+    pub(crate) points: bool,
+}
+
 impl Formats {
+    /// An error if an option is given that nothing is there for.
+    pub(crate) fn refuse_unused(&self, streams: &Streams) -> Result<(), Failure> {
+        let of_input = self.input_format.is_none() && streams.input;
+        if self.format.is_some() && !streams.output && !of_input {
+            return unused("--format", "it names the format of -, other files have that of their extension");
+        }
+        if self.input_format.is_some() && !streams.input {
+            return unused(
+                "--input-format",
+                "no file to read is -, others have the format of their extension",
+            );
+        }
+        if self.columns.is_some() && !streams.points {
+            return unused("--columns", "no table is read without --input");
+        }
+        Ok(())
+    }
+
     /// What a mesh is written to standard output as.
     pub(crate) fn of_output(&self) -> Result<MeshFormat, Failure> {
         named(self.format.as_ref(), MeshFormat::from_name, "meshes", "output")
     }
 
-    /// What points are written to standard output as.
-    pub(crate) fn of_points(&self) -> Result<PointFormat, Failure> {
-        named(self.format.as_ref(), PointFormat::from_name, "points", "output")
+    /// What files need of them beside a stream.
+    pub(crate) fn of_files(&self) -> Self {
+        Self { columns: self.columns.clone(), ..Self::default() }
     }
 
     fn of_input(&self) -> Option<&String> {
@@ -55,6 +83,11 @@ fn named<F>(
 ) -> Result<F, Failure> {
     let name = name.ok_or(Failure::NoFormat { stream })?;
     find(name).ok_or_else(|| Failure::UnknownFormat { name: name.clone(), what })
+}
+
+/// What points are written to standard output as.
+pub(crate) fn format_of_points(name: Option<&String>) -> Result<PointFormat, Failure> {
+    named(name, PointFormat::from_name, "points", "output")
 }
 
 /// Whether a path stands for standard input or output.
@@ -73,10 +106,25 @@ pub(crate) fn read_graph(path: &Path, formats: &Formats) -> Result<PointFile, Fa
         reader.read(path)?
     };
     warn_of(&file);
-    if formats.columns.is_some() && file.columns.is_none() && !file.pslg.points.is_empty() {
-        warn(&format!("{}: --columns is for tables, and this is none", path.display()));
-    }
+    refuse_columns(formats.columns.as_ref(), &file, path)?;
     Ok(file)
+}
+
+/// An error if columns were asked for of what is not a table.
+pub(crate) fn refuse_columns(
+    columns: Option<&Columns>,
+    file: &PointFile,
+    path: &Path,
+) -> Result<(), Failure> {
+    if columns.is_some() && file.columns.is_none() && !file.pslg.points.is_empty() {
+        return no_table(path);
+    }
+    Ok(())
+}
+
+/// Columns were asked for of what is not a table.
+pub(crate) fn no_table(path: &Path) -> Result<(), Failure> {
+    unused("--columns", &format!("it is for tables, and {} is not one", path.display()))
 }
 
 /// Warns of what was wrong with a file and read all the same.

@@ -74,5 +74,5 @@ fn main() -> ExitCode {
         Command::Completions(args) => manual::completions(Cli::command(), &args),
         Command::Man(args) => manual::man(Cli::command(), &args),
     };
-    exit::finish(outcome)
+    exit::finish(outcome, usage::command().as_ref())
 }

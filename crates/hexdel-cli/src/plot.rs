@@ -1,16 +1,16 @@
 //! `hexdel plot`: pictures of meshes, and the options that all pictures have.
 
 use crate::exit::{Failure, Outcome, Verdict};
-use crate::input::{Formats, read_graph};
+use crate::input::{Formats, Streams, is_stream, read_graph, read_mesh_data};
 use crate::outputs::Outputs;
 use clap::ValueEnum;
 use hexdel::{AngleBounds, DVec2, TriMesh};
-use hexdel_io::{ColourBy, MeshFormat, Picture, WriteError, read_mesh_data, write_mesh};
+use hexdel_io::{ColourBy, MeshFormat, Picture, WriteError, write_mesh};
 use std::path::PathBuf;
 
 /// Draw a mesh, coloured by its angles or regions
 #[derive(clap::Args)]
-#[command(mut_arg("format", |arg| arg.hide(true)), mut_arg("input_format", |arg| arg.hide(true)), after_help = "\
+#[command(after_help = "\
     The bounds are where colour scales end and what the histogram marks; angles\n\
     beyond them are red. Levels and classes are those of the hexagons behind a\n\
     mesh, which files do not tell: `hexdel mesh` has these options too, --size as\n\
@@ -33,7 +33,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DEG", default_value_t = AngleBounds::EXTENDED.max_deg(), allow_negative_numbers = true)]
     max_angle: f64,
     /// File of points to be drawn where they are vertices
-    #[arg(long)]
+    #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
     #[command(flatten)]
     formats: Formats,
@@ -88,6 +88,17 @@ fn zoom(text: &str) -> Result<Zoom, &'static str> {
 }
 
 impl PictureArgs {
+    /// An option that is given, if any is, by its name here.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        let all = [
+            ("--colour", self.colour.is_some()),
+            ("--histogram", self.histogram),
+            ("--zoom", self.zoom.is_some()),
+            ("--size", self.size.is_some()),
+        ];
+        all.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
+    }
+
     /// The options as the library has them; colours by groups are left to the
     /// caller.
     pub(crate) fn picture(&self, bounds: AngleBounds) -> Picture<'static> {
@@ -112,9 +123,17 @@ pub(crate) fn run(args: &Args) -> Outcome {
         return Err(Failure::NoHexagons { of: format!("{}: a mesh file", args.mesh.display()) });
     }
     let bounds = AngleBounds::new(args.min_angle, args.max_angle)?;
-    let read = |path| read_graph(path, &args.formats).map(|file| file.pslg.points);
+    let is_input = args.input.as_deref().is_some_and(is_stream);
+    args.formats.refuse_unused(&Streams {
+        input: is_stream(&args.mesh) || is_input,
+        output: false,
+        points: args.input.is_some(),
+    })?;
+    // Of two files only one can be standard input.
+    let of_input = if is_stream(&args.mesh) { args.formats.of_files() } else { args.formats.clone() };
+    let read = |path| read_graph(path, &of_input).map(|file| file.pslg.points);
     let points = args.input.as_deref().map(read).transpose()?;
-    let mut data = read_mesh_data(&args.mesh)?;
+    let mut data = read_mesh_data(&args.mesh, &args.formats)?;
     if let Some(points) = points {
         data.input_indices = Some(input_indices(&data.mesh, &points));
     }

@@ -3,9 +3,10 @@
 use crate::Cli;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, Error};
+use clap::{Arg, Command, CommandFactory, Error};
 
-/// Options of other programs, and what the same is called here, with its value.
+/// Options of other programs, and what the same is called here, with its value. An option
+/// whose value has another name is another one.
 const SAME: [(&[&str], &str, &str); 14] = [
     (&["area", "maxarea", "max_area", "area-max", "triangle-area"], "max-area", "--max-area A"),
     (&["angle", "quality", "minangle", "min_angle", "angle-min"], "min-angle", "--min-angle DEG"),
@@ -52,7 +53,7 @@ pub(crate) fn improved(mut error: Error) -> Error {
     };
     let name = unknown.trim_start_matches('-').split('=').next().unwrap_or_default().to_owned();
     let similar = text(error.get(ContextKind::SuggestedArg));
-    let tip = meant(&name, std::env::args().nth(1).as_deref());
+    let tip = command().and_then(|command| meant(&name, &command));
     // That a value could begin with a dash is no help.
     error.remove(ContextKind::Suggested);
     if let Some(tip) = tip {
@@ -64,18 +65,30 @@ pub(crate) fn improved(mut error: Error) -> Error {
     error
 }
 
+/// The command that was called.
+pub(crate) fn command() -> Option<Command> {
+    let name = std::env::args().nth(1)?;
+    Cli::command().find_subcommand(name).cloned()
+}
+
 /// What means the same in a command.
-fn meant(name: &str, command: Option<&str>) -> Option<String> {
-    let commands = Cli::command();
-    let command = commands.find_subcommand(command?)?;
+fn meant(name: &str, command: &Command) -> Option<String> {
     let (_, option, usage) = SAME.iter().find(|(names, ..)| names.contains(&name))?;
-    if command.get_arguments().any(|argument| argument.get_long() == Some(option)) {
+    if command.get_arguments().any(|argument| is_same(argument, option, usage)) {
         return Some(format!("the same here is '{usage}'"));
     }
-    let positional = command.get_positionals().any(|argument| argument.get_id() == option);
-    positional.then(|| {
-        format!("{} comes without an option, as in 'hexdel {} INPUT OUTPUT'", option, command.get_name())
-    })
+    let ordinal = command.get_positionals().zip(["first", "second"]);
+    let (_, place) = ordinal.into_iter().find(|(argument, _)| argument.get_id() == option)?;
+    let all: Vec<String> = command.get_positionals().map(|a| a.get_id().as_str().to_uppercase()).collect();
+    Some(format!("the {option} is the {place} argument: 'hexdel {} {}'", command.get_name(), all.join(" ")))
+}
+
+/// Whether an argument is the option of that name, and its value what the usage says.
+fn is_same(argument: &Arg, option: &str, usage: &str) -> bool {
+    let value = usage.split([' ', '=']).nth(1).filter(|value| value.chars().any(char::is_uppercase));
+    let own = argument.get_value_names().and_then(<[_]>::first);
+    argument.get_long() == Some(option)
+        && value.is_none_or(|value| own.is_some_and(|own| own.as_str() == value))
 }
 
 /// Whether a name is another one but for a slip, or its beginning.
@@ -110,9 +123,40 @@ mod tests {
     #[test]
     fn every_suggestion_is_an_option_somewhere() {
         let commands = Cli::command();
-        for (_, option, _) in SAME {
-            let has = |c: &clap::Command| c.get_arguments().any(|a| a.get_long() == Some(option));
+        for (_, option, usage) in SAME {
+            let has = |c: &Command| c.get_arguments().any(|a| is_same(a, option, usage));
             assert!(commands.get_subcommands().any(has), "{option}");
         }
+    }
+
+    /// What is said of every name in every command is an option of that command, with the
+    /// value that it has there.
+    #[test]
+    fn no_command_is_told_of_the_options_of_another() {
+        let mut told = 0;
+        for command in Cli::command().get_subcommands() {
+            for name in SAME.iter().flat_map(|(names, ..)| *names) {
+                let Some(tip) = meant(name, command) else { continue };
+                told += 1;
+                let Some(usage) = tip.strip_prefix("the same here is '") else { continue };
+                let option = usage.trim_start_matches('-').split([' ', '=', '\'']).next().unwrap();
+                let has = |a: &Arg| {
+                    a.get_long() == Some(option)
+                        || a.get_short().is_some_and(|short| option == short.to_string())
+                };
+                assert!(command.get_arguments().any(has), "{} {name}: {tip}", command.get_name());
+            }
+        }
+        assert!(told > 50, "{told}");
+        let commands = Cli::command();
+        let of = |command: &str, name: &str| meant(name, commands.find_subcommand(command).unwrap());
+        assert_eq!(of("mesh", "h").unwrap(), "the same here is '--size H'");
+        // The size of a picture is another one.
+        assert_eq!(of("plot", "h"), None);
+        assert_eq!(of("check", "repair-tolerance"), None);
+        assert_eq!(
+            of("convert", "to").unwrap(),
+            "the output is the second argument: 'hexdel convert INPUT OUTPUT'"
+        );
     }
 }

@@ -4,6 +4,7 @@ use crate::carve::Carving;
 use crate::fans::{Fan, LEAST_DEG, NARROW_DEG, Scene};
 use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
+use crate::hull::with_hull;
 use crate::options::Extent;
 use crate::validate::{Piece, Validated, spatial_order};
 use hexdel_geom::{DVec2, quality};
@@ -89,7 +90,7 @@ pub struct NarrowCorner {
 
 /// The corners of a graph narrower than `least_deg`, by point: where
 /// [`mesh`](crate::mesh) may go below that lower bound. Corners in holes, and outside of
-/// the extent, are none.
+/// the extent, are none; those of the hull are some, if that is the extent.
 ///
 /// ```
 /// use hexdel_geom::{DVec2, Pslg};
@@ -102,7 +103,8 @@ pub struct NarrowCorner {
 /// # Ok::<(), hexdel_pslg::ValidateError>(())
 /// ```
 pub fn narrow_corners(input: &Validated, extent: Extent, least_deg: f64) -> Vec<NarrowCorner> {
-    let scene = Scene::plain(input, input.pieces.clone());
+    let pieces = if extent == Extent::Hull { with_hull(input) } else { input.pieces.clone() };
+    let scene = Scene::plain(input, pieces);
     let carving = Carving::of(input, extent);
     let corner = |s: &Sector| {
         let end = |p: u32| {

@@ -1,7 +1,7 @@
 //! What a mesh must keep of a graph's segments.
 
-use super::finding;
-use hexdel::geom::certificate::{PlaceCheck, Promises, Violation, check_promises, features};
+use super::{finding, points};
+use hexdel::geom::certificate::{PlaceCheck, Promise, Promises, Violation, check_promises, features};
 use hexdel::geom::segments::{covered, is_on};
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, MissingSegment, SegmentCheck, check_segments, quality};
 use hexdel::{AngleBounds, Certificate, DVec2, Mesher, Pslg, TriMesh, pslg};
@@ -38,7 +38,7 @@ impl OfGraph {
         // Places that are merged would have other numbers.
         let prepared = prepared.filter(|p| p.points.starts_with(&graph.points));
         let graph = prepared.as_ref().unwrap_or(graph);
-        let domain = Wanted::of(mesh, graph, certificate.bounds.min_deg());
+        let domain = Wanted::of(mesh, graph, promised, certificate.bounds.min_deg());
         let mut segments = check_segments(mesh, &graph.points, &domain.pieces);
         let midpoints: Vec<DVec2> = segments.missing.iter().map(|m| m.ends[0].midpoint(m.ends[1])).collect();
         let mut covers = covered(mesh, &midpoints).into_iter();
@@ -104,15 +104,13 @@ impl OfGraph {
         Self { segments, exempt, far, far_bounds }
     }
 
-    /// Whether the mesh has of the graph what it should have.
-    pub(super) fn holds(&self) -> bool {
-        self.segments.missing.is_empty() && self.far.as_ref().is_none_or(PlaceCheck::holds)
-    }
-
     pub(super) fn findings(&self) -> Vec<(bool, String)> {
         let (segments, kept) = (self.segments.segments, self.segments.kept);
-        let missing = self.segments.missing.is_empty();
-        let mut findings = vec![(missing, format!("{kept} of {segments} segments are unions of edges"))];
+        let mut findings = Vec::new();
+        if segments > 0 {
+            let complete = self.segments.missing.is_empty();
+            findings.push((complete, format!("{kept} of {segments} segments are unions of edges")));
+        }
         if self.exempt > 0 {
             let n = self.exempt;
             findings.push((true, format!("{n} triangles exempt in corners narrower than the bound")));
@@ -129,15 +127,26 @@ impl OfGraph {
         findings
     }
 
-    /// The missing segments in words.
+    /// The missing segments, and the triangles past the far bounds, in words.
     pub(super) fn describe(&self) -> impl Iterator<Item = String> + '_ {
-        self.segments.missing.iter().map(|MissingSegment { segment, ends: [a, b], reached, .. }| {
+        let segments = self.segments.missing.iter().map(|missing| {
+            let MissingSegment { segment, ends, reached, .. } = missing;
             let reached = match reached {
                 None => "no vertex at its start".to_owned(),
                 Some(p) => format!("edges lead to ({}, {}) only", p.x, p.y),
             };
-            format!("segment {segment} ({}, {}) ({}, {}): {reached}", a.x, a.y, b.x, b.y)
-        })
+            format!("segment {segment} {}: {reached}", points(ends))
+        });
+        let far = self.far.iter().flat_map(|far| &far.broken).filter_map(|broken| match broken.promise {
+            Promise::FarAngle { angle_deg, .. } => {
+                let (t, corners) = (broken.triangle.index(), points(&broken.corners));
+                Some(format!(
+                    "triangle {t} {corners}: {angle_deg} degrees, two edges from points and segments"
+                ))
+            }
+            _ => None,
+        });
+        segments.chain(far)
     }
 }
 
@@ -153,13 +162,8 @@ fn spare_places(mesh: &TriMesh, graph: &Pslg, domain: &Wanted) -> Vec<DVec2> {
 
 /// The points that may have a fan around them: their neighbours count as points do.
 fn fans(graph: &Pslg, promised: &Promised) -> Vec<DVec2> {
-    let extent = match promised.domain {
-        PromisedDomain::Hull => pslg::Extent::Hull,
-        PromisedDomain::Hexagon => pslg::Extent::Hexagon,
-        _ => pslg::Extent::Inside,
-    };
     let Ok(valid) = pslg::validate(graph) else { return Vec::new() };
-    let points = pslg::fan_points(&valid, extent, promised.near).into_iter();
+    let points = pslg::fan_points(&valid, extent_of(promised.domain), promised.near).into_iter();
     points.map(|p| graph.points[p as usize]).collect()
 }
 
@@ -179,8 +183,18 @@ fn order(p: &DVec2, q: &DVec2) -> Ordering {
     p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))
 }
 
-/// What a mesh covers: the inside if its area says so, or more.
-fn extent_of(mesh: &TriMesh, graph: &pslg::Validated) -> pslg::Extent {
+/// What a mesh covers that was made to cover a domain.
+fn extent_of(domain: PromisedDomain) -> pslg::Extent {
+    match domain {
+        PromisedDomain::Hull => pslg::Extent::Hull,
+        PromisedDomain::Inside => pslg::Extent::Inside,
+        // In a box, too, only holes are left out.
+        PromisedDomain::Hexagon | PromisedDomain::Box => pslg::Extent::Hexagon,
+    }
+}
+
+/// What a mesh covers that does not say so: the inside if its area does, or more.
+fn extent_by_area(mesh: &TriMesh, graph: &pslg::Validated) -> pslg::Extent {
     let areas = graph.areas(pslg::Extent::Inside);
     let inside = areas.of_region.iter().sum::<f64>() + areas.of_none;
     let corners = mesh.triangles.iter().map(|t| t.map(|v| mesh.vertices.get(v.index()).copied()));
@@ -209,10 +223,11 @@ struct Wanted {
 }
 
 impl Wanted {
-    fn of(mesh: &TriMesh, graph: &Pslg, least_deg: f64) -> Self {
-        let Ok(valid) = pslg::validate(graph) else {
-            // The mesh may have been made of what repair made of the graph; its
-            // segments are looked for as they are.
+    fn of(mesh: &TriMesh, graph: &Pslg, promised: Option<&Promised>, least_deg: f64) -> Self {
+        let valid = Some(graph).filter(|graph| !graph.segments.is_empty());
+        let Some(Ok(valid)) = valid.map(pslg::validate) else {
+            // Points alone are vertices wherever they lie. Of other graphs the mesh may have been
+            // made of what repair made of them; their segments are looked for as they are.
             return Self {
                 pieces: graph.segments.clone(),
                 segment_of_piece: (0..graph.segments.len()).collect(),
@@ -222,9 +237,11 @@ impl Wanted {
                 wedges: Vec::new(),
             };
         };
-        let carved = valid.carved(true);
+        let promised = promised.map(|promised| extent_of(promised.domain));
+        let carved = valid.carved(promised.is_none_or(|extent| extent == pslg::Extent::Inside));
+        let extent = promised.unwrap_or_else(|| extent_by_area(mesh, &valid));
         let (segment_of_piece, pieces) = valid.pieces().unzip();
-        let corners = pslg::narrow_corners(&valid, extent_of(mesh, &valid), least_deg);
+        let corners = pslg::narrow_corners(&valid, extent, least_deg);
         let at = |p: u32| graph.points[p as usize];
         let mut narrow: Vec<DVec2> = corners.iter().map(|c| at(c.point)).collect();
         narrow.sort_by(order);

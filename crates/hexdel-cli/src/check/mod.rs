@@ -3,7 +3,7 @@
 mod graph;
 
 use crate::exit::{Outcome, Verdict, print};
-use crate::input::{Formats, is_stream, read_graph, read_mesh_data};
+use crate::input::{Formats, Streams, is_stream, read_graph, read_mesh_data};
 use graph::OfGraph;
 use hexdel::geom::certificate::Violation;
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, BoundsError, CertifyOptions, certify, quality};
@@ -32,13 +32,13 @@ pub(crate) struct Args {
     /// Mesh, in any format that is read, such as .ele (with its .node), .vtu or .msh
     mesh: PathBuf,
     /// File of points that must be vertices, bit for bit, and of segments
-    #[arg(long)]
+    #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
     /// Smallest angle, degrees [default: the file's; 0 with --max-angle]
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     min_angle: Option<f64>,
     /// Largest angle, degrees [default: the file's; 90 with --min-angle]
-    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     max_angle: Option<f64>,
     #[command(flatten)]
     formats: Formats,
@@ -62,13 +62,22 @@ const LISTED: usize = 100;
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
+    let is_input = args.input.as_deref().is_some_and(is_stream);
+    args.formats.refuse_unused(&Streams {
+        input: is_stream(&args.mesh) || is_input,
+        output: false,
+        points: args.input.is_some(),
+    })?;
     // Of two files only one can be standard input.
-    let of_input = if is_stream(&args.mesh) { Formats::default() } else { args.formats.clone() };
+    let of_input = if is_stream(&args.mesh) { args.formats.of_files() } else { args.formats.clone() };
     let input = args.input.as_deref().map(|path| read_graph(path, &of_input)).transpose()?;
     let input = input.map(|file| file.pslg);
     let MeshData { mesh, promised, .. } = read_mesh_data(&args.mesh, &args.formats)?;
-    let graph = input.as_ref().filter(|input| !input.segments.is_empty());
     let asked = args.asked()?;
+    let has_segments = input.as_ref().is_some_and(|input| !input.segments.is_empty());
+    // Points alone have a far bound of their own in other domains than the hexagon.
+    let has_far = asked.is_none() && promised.as_ref().is_some_and(|p| p.near != p.far);
+    let graph = input.as_ref().filter(|_| has_segments || has_far);
     let known = asked.or(promised.as_ref().map(|promised| promised.near));
     let options = CertifyOptions {
         bounds: known.map_or(AngleBounds::new(0.0, 180.0), Ok)?,
@@ -79,11 +88,11 @@ pub(crate) fn run(args: &Args) -> Outcome {
         ..CertifyOptions::default()
     };
     let mut certificate = certify(&mesh, &options);
-    // Without the input the file is believed. As Triangle does it, points may be vertices
+    // Without segments the file is believed. As Triangle does it, points may be vertices
     // without triangles.
-    let spare = promised.is_some() && graph.is_none();
+    let spare = promised.is_some() && !has_segments;
     let promised = promised.filter(|_| asked.is_none());
-    let believed = promised.as_ref().filter(|_| graph.is_none()).map_or(&[][..], |p| &p.exempt);
+    let believed = promised.as_ref().filter(|_| !has_segments).map_or(&[][..], |p| &p.exempt);
     let exempt = excuse(&mut certificate, &mesh, believed);
     let of_graph = graph.map(|graph| OfGraph::new(&mesh, graph, promised.as_ref(), &mut certificate));
     certificate.violations.truncate(LISTED);
@@ -154,15 +163,9 @@ impl Found {
         if self.spare { 0 } else { self.certificate.unused_vertices }
     }
 
-    /// An empty mesh has no fault, but is none: it does not hold.
+    /// Whether every finding is good: the report and the verdict say the same.
     fn holds(&self) -> bool {
-        let c = &self.certificate;
-        let broken = c.malformed + c.not_finite + c.not_counter_clockwise + c.repeated_edges;
-        broken + self.unused() + c.out_of_bounds == 0
-            && c.triangles > 0
-            && c.delaunay
-            && c.inputs_kept == c.inputs
-            && self.of_graph.as_ref().is_none_or(OfGraph::holds)
+        findings(self).iter().all(|(good, _)| *good)
     }
 }
 
@@ -322,4 +325,52 @@ fn describe(violation: &Violation) -> String {
 fn points(points: &[DVec2]) -> String {
     let each: Vec<String> = points.iter().map(|p| format!("({}, {})", p.x, p.y)).collect();
     each.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hexdel::VertexId;
+
+    fn triangle() -> Found {
+        let mesh = TriMesh {
+            vertices: vec![DVec2::ZERO, DVec2::X, DVec2::Y],
+            triangles: vec![[0, 1, 2].map(VertexId::new)],
+        };
+        Found {
+            certificate: certify(&mesh, &CertifyOptions::default()),
+            of_graph: None,
+            exempt: 0,
+            spare: false,
+            has_bounds: true,
+            has_input: false,
+        }
+    }
+
+    /// The verdict is that of the report: no count of faults is told and forgiven.
+    #[test]
+    fn what_fails_in_the_report_does_not_hold() {
+        let sound = triangle();
+        assert!(sound.holds() && !readable("m", &sound).contains("FAIL"));
+        let faults: [fn(&mut Certificate); 9] = [
+            |c| c.stretched_triangles = 1,
+            |c| c.out_of_bounds = 1,
+            |c| c.not_counter_clockwise = 1,
+            |c| c.malformed = 1,
+            |c| c.not_finite = 1,
+            |c| c.repeated_edges = 1,
+            |c| c.unused_vertices = 1,
+            |c| c.delaunay = false,
+            |c| c.inputs = 1,
+        ];
+        for (i, fault) in faults.into_iter().enumerate() {
+            let mut found = triangle();
+            fault(&mut found.certificate);
+            let text = readable("m", &found);
+            assert!(
+                !found.holds() && text.contains("FAIL") && text.ends_with("does not hold\n"),
+                "{i}: {text}"
+            );
+        }
+    }
 }

@@ -61,6 +61,12 @@ pub(crate) struct Finished<'a> {
 }
 
 impl Finished<'_> {
+    /// Where all items of a list are.
+    fn elsewhere(&self) -> &'static str {
+        // Meshes in Triangle's order are those of `hexdel triangle`, which makes no report.
+        if self.numbered.is_some() { "" } else { ", see --report" }
+    }
+
     /// Writes the mesh to all files and says what it is like.
     pub(crate) fn write(&self, outputs: &Outputs) -> Outcome {
         let made = self.made;
@@ -93,7 +99,7 @@ impl Finished<'_> {
         }
         write(outputs, (&view, &made.mesh), &Report::new(Some(&report), self.input))?;
         if !self.quiet {
-            outputs.tell(&summary(made, &report, self.input))?;
+            outputs.tell(&self.summary(&report))?;
         }
         // Divided borders are among the repairs.
         let told = |w: &&Warning| !matches!(w, Warning::DividedBorders { .. });
@@ -102,7 +108,8 @@ impl Finished<'_> {
             warn(&format!("{}: {warning}", self.file));
         }
         if warnings.len() > SHOWN {
-            warn(&format!("{}: {} more, see --report", self.file, warnings.len() - SHOWN));
+            let more = warnings.len() - SHOWN;
+            warn(&format!("{}: {more} more{}", self.file, self.elsewhere()));
         }
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));
@@ -112,6 +119,64 @@ impl Finished<'_> {
             (false, true) => Verdict::Holds,
             (false, false) => Verdict::Fails,
         })
+    }
+
+    /// What is worth knowing at a glance.
+    fn summary(&self, report: &PslgReport<'_>) -> String {
+        let made = self.made;
+        let (graph, c) = (&made.graph, &made.certificate);
+        let mut text = String::new();
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            text,
+            "graph      {} points, {} segments, {} holes, {} regions",
+            graph.points.len(),
+            graph.segments.len(),
+            graph.holes.len(),
+            graph.regions.len()
+        );
+        text.push_str(&columns_line(self.input));
+        self.list(&mut text, "repaired", &report.repairs);
+        let without = made.edges_of_segment.iter().filter(|&&edges| edges == 0).count();
+        let without = if without > 0 { format!(", {without} not in the domain") } else { String::new() };
+        let _ = write!(
+            text,
+            "mesh       {} vertices, {} triangles, domain {}\n\
+             segments   {} edges{without}\n\
+             angles     {:.4} to {:.4} degrees\n",
+            c.vertices, c.triangles, report.domain, report.segment_edges, c.min_angle_deg, c.max_angle_deg,
+        );
+        self.list(&mut text, "exempt", &report.exempt);
+        // What the paper's templates do near segments is no failure of theirs.
+        let name = if report.holds { "beyond" } else { "FAILED" };
+        self.list(&mut text, name, &report.failed);
+        let spent =
+            if made.budget_spent { "budget     spent before the mesh was as good as can be\n" } else { "" };
+        let _ = write!(
+            text,
+            "{}  {}\n{spent}seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
+            if report.holds { "certified" } else { "NOT SO   " },
+            promises(made),
+            made.seconds.total,
+            made.seconds.refine,
+            made.seconds.extract,
+            made.seconds.certify,
+        );
+        text
+    }
+
+    /// A count and the first items, if there are any.
+    fn list(&self, text: &mut String, name: &str, items: &[impl Display]) {
+        if items.is_empty() {
+            return;
+        }
+        let _ = writeln!(text, "{name:<9}  {}", items.len());
+        for item in items.iter().take(SHOWN) {
+            let _ = writeln!(text, "           {item}");
+        }
+        if items.len() > SHOWN {
+            let _ = writeln!(text, "           and {} more{}", items.len() - SHOWN, self.elsewhere());
+        }
     }
 }
 
@@ -188,49 +253,6 @@ pub(crate) fn warn_of_repairs(made: &PslgTriangulation, file: &str) {
     }
 }
 
-/// What is worth knowing at a glance.
-fn summary(made: &PslgTriangulation, report: &PslgReport<'_>, input: &PointFile) -> String {
-    let (graph, c) = (&made.graph, &made.certificate);
-    let mut text = String::new();
-    // Writing to a string does not fail.
-    let _ = writeln!(
-        text,
-        "graph      {} points, {} segments, {} holes, {} regions",
-        graph.points.len(),
-        graph.segments.len(),
-        graph.holes.len(),
-        graph.regions.len()
-    );
-    text.push_str(&columns_line(input));
-    list(&mut text, "repaired", &report.repairs);
-    let without = made.edges_of_segment.iter().filter(|&&edges| edges == 0).count();
-    let without = if without > 0 { format!(", {without} not in the domain") } else { String::new() };
-    let _ = write!(
-        text,
-        "mesh       {} vertices, {} triangles, domain {}\n\
-         segments   {} edges{without}\n\
-         angles     {:.4} to {:.4} degrees\n",
-        c.vertices, c.triangles, report.domain, report.segment_edges, c.min_angle_deg, c.max_angle_deg,
-    );
-    list(&mut text, "exempt", &report.exempt);
-    // What the paper's templates do near segments is no failure of theirs.
-    let name = if report.holds { "beyond" } else { "FAILED" };
-    list(&mut text, name, &report.failed);
-    let spent =
-        if made.budget_spent { "budget     spent before the mesh was as good as can be\n" } else { "" };
-    let _ = write!(
-        text,
-        "{}  {}\n{spent}seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
-        if report.holds { "certified" } else { "NOT SO   " },
-        promises(made),
-        made.seconds.total,
-        made.seconds.refine,
-        made.seconds.extract,
-        made.seconds.certify,
-    );
-    text
-}
-
 /// What a mesh of a graph is to keep.
 fn promises(made: &PslgTriangulation) -> String {
     let c = &made.certificate;
@@ -252,18 +274,4 @@ fn promises(made: &PslgTriangulation) -> String {
     }
     let delaunay = if c.delaunay { "Delaunay" } else { "not Delaunay" };
     format!("angles within {min:.4} to {max}{exempt}, {delaunay}, {points}, {segments}{edges}{}", limited(c))
-}
-
-/// A count and the first items, if there are any.
-fn list(text: &mut String, name: &str, items: &[impl Display]) {
-    if items.is_empty() {
-        return;
-    }
-    let _ = writeln!(text, "{name:<9}  {}", items.len());
-    for item in items.iter().take(SHOWN) {
-        let _ = writeln!(text, "           {item}");
-    }
-    if items.len() > SHOWN {
-        let _ = writeln!(text, "           and {} more, see --report", items.len() - SHOWN);
-    }
 }

@@ -3,15 +3,15 @@
 mod graph;
 mod points;
 
-use crate::exit::{Failure, Outcome, warn};
-use crate::input::{Formats, is_stream, read_graph};
+use crate::exit::{Failure, Outcome, unused, warn};
+use crate::input::{Formats, Streams, is_stream, read_graph};
 use crate::outputs::{Content, Outputs};
 use crate::plot::{Colour, PictureArgs};
 use crate::sizing::size_of_file;
 use clap::ValueEnum;
 use hexdel::geom::{BoundsError, Voronoi};
 use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg, SegmentMethod, Size, TriMesh};
-use hexdel_io::{MeshView, PointFile, write_dual, write_mesh, write_mesh_to};
+use hexdel_io::{MeshFormat, MeshView, PointFile, write_dual, write_mesh, write_mesh_to};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -168,9 +168,13 @@ fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Why options of pictures have no effect.
+const NO_PICTURE: &str = "it is for pictures, and no output is .svg or .png";
+
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
+    args.refuse_unused()?;
     let input = read_graph(&args.input, &args.formats)?;
     let for_graphs = args.is_for_graphs(&input.pslg);
     if args.picture.colour.is_some_and(Colour::needs_hexagons) {
@@ -206,6 +210,25 @@ fn outputs(args: &Args) -> Result<Outputs, Failure> {
 }
 
 impl Args {
+    /// An error if an option is given that nothing is there for.
+    fn refuse_unused(&self) -> Result<(), Failure> {
+        let to_stream = self.output.iter().any(|path| is_stream(path));
+        let streams = Streams { input: is_stream(&self.input), output: to_stream, points: true };
+        self.formats.refuse_unused(&streams)?;
+        let is_picture = |path: &PathBuf| {
+            let by_name =
+                if is_stream(path) { self.formats.of_output().ok() } else { MeshFormat::from_path(path) };
+            by_name.is_some_and(MeshFormat::is_picture)
+        };
+        let given = self.picture.given().or(self.grid.then_some("--grid"));
+        match given.filter(|_| !self.output.iter().any(is_picture)) {
+            // Lengths of edges have that name here.
+            Some("--size") => unused("--pixels", NO_PICTURE),
+            Some(option) => unused(option, NO_PICTURE),
+            None => Ok(()),
+        }
+    }
+
     /// Whether the input, or what is asked for, takes more than points.
     fn is_for_graphs(&self, input: &Pslg) -> bool {
         let other_domain = self.domain.is_some_and(|d| !matches!(d, DomainName::Hexagon));

@@ -95,6 +95,45 @@ fn the_far_bound_is_checked_with_the_input() {
     bench.run("check m.ele").fine();
 }
 
+/// So they are for points alone, in domains where the bounds beside them are others.
+#[test]
+fn the_far_bound_of_points_is_checked_in_a_hull_and_in_a_box() {
+    let bench = Bench::new();
+    bench.file("p.txt", "0 0\n9 0\n9 9\n0 9\n4 4\n");
+    for domain in ["hull", "box"] {
+        bench.run(&format!("mesh p.txt -q -o m.ele -a 0.5 --domain {domain}")).fine();
+        let run = bench.run("check m.ele --input p.txt");
+        run.fine();
+        assert!(run.out.contains("two edges from points and segments, within 43.8978"), "{}", run.out);
+        assert!(!run.out.contains("unions of edges"), "{}", run.out);
+        let strict = String::from_utf8(bench.read("m.ele")).unwrap().replace("far 43.8978 90", "far 59 61");
+        bench.file("m.ele", &strict);
+        let run = bench.run("check m.ele --input p.txt");
+        assert!(run.code == 1 && run.out.contains("FAIL"), "{domain}: {}", run.out);
+        assert!(run.out.contains("degrees, two edges from points and segments\n"), "{}", run.out);
+        // A point that is not there is missed as ever.
+        bench.file("q.txt", "0 0\n4.5 4.25\n");
+        let run = bench.run("check m.ele --input q.txt");
+        assert!(run.out.contains("FAIL  1 of 2 input points are vertices"), "{}", run.out);
+    }
+}
+
+/// Corners of the hull are exempt where they are narrower than the bound, with the input as
+/// without it; so are fans in a box.
+#[test]
+fn narrow_corners_of_other_domains_are_exempt() {
+    let bench = Bench::new();
+    bench.file("p.txt", "0 0\n3 0\n3 0.6\n1 0.1\n");
+    bench.file("s.poly", "4 2\n0 0 0\n1 3 0\n2 3 0.6\n3 1 0.1\n1 0\n0 1 3\n0\n");
+    bench.file("v.poly", "4 2\n0 0 0\n1 3 0\n2 3 0.3\n3 1 2\n2 0\n0 0 1\n1 0 2\n0\n");
+    for (input, domain) in [("p.txt", "hull"), ("s.poly", "hull"), ("v.poly", "box"), ("v.poly", "hexagon")] {
+        bench.run(&format!("mesh {input} -q -o m.ele --domain {domain} -a 0.01")).fine();
+        bench.run("check m.ele").fine();
+        let run = bench.run(&format!("check m.ele --input {input}"));
+        assert_eq!(run.code, 0, "{input} {domain}: {}", run.out);
+    }
+}
+
 #[test]
 fn whatever_is_wrong_with_a_mesh_is_told() {
     for (elements, words) in [

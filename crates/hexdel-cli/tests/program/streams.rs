@@ -16,10 +16,50 @@ fn points_come_in_and_meshes_go_out_through_pipes() {
     bench.file("p.csv", points);
     let check = bench.fed("check - --format off --input p.csv", run.out.as_bytes());
     assert_eq!((check.code, check.err.as_str()), (0, ""), "{}", check.out);
+    // Columns are those of the file that is no stream.
+    bench.file("q.csv", "id,u,v\n7,0,0\n8,1,0\n9,0,1\n");
+    let check = bench.fed("check - --format off --input q.csv --columns u,v", run.out.as_bytes());
+    assert_eq!((check.code, check.err.as_str()), (0, ""), "{}", check.out);
+    bench.fed("plot - -o m.svg --format off --input q.csv --columns u,v", run.out.as_bytes()).fine();
+    assert!(bench.read("m.svg").starts_with(b"<svg"));
     let generated = bench.run("generate uniform 5 -o - --format csv");
     generated.fine();
     assert!(generated.out.starts_with("x,y\n") && generated.out.lines().count() == 6);
-    assert_eq!(bench.names(), ["p.csv"]);
+    assert_eq!(bench.names(), ["m.svg", "p.csv", "q.csv"]);
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    let bench = Bench::new();
+    bench.file("p.csv", "x,y\n0,0\n1,0\n0,1\n");
+    bench.file("p.json", r#"{"points": [[0, 0], [1, 0]]}"#);
+    bench.file("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    bench.file("m.node", "3 2\n1 0 0\n2 1 0\n3 0 1\n");
+    let before = bench.names();
+    for (arguments, option, words) in [
+        ("mesh m.node -o k.ele --columns 2,3", "--columns", "it is for tables, and m.node is not one"),
+        ("mesh p.csv -o k.ele --format csv", "--format", "it names the format of -"),
+        ("mesh p.csv -o k.ele --input-format csv", "--input-format", "no file to read is -"),
+        ("mesh p.csv -o - --format off --input-format csv", "--input-format", "no file to read is -"),
+        ("mesh p.csv -o k.ele --histogram", "--histogram", "it is for pictures"),
+        ("mesh p.csv -o k.ele --pixels 100", "--pixels", "it is for pictures"),
+        ("mesh p.csv -o k.ele --grid", "--grid", "it is for pictures"),
+        ("check m.off --columns x,y", "--columns", "no table is read without --input"),
+        ("check m.off --input m.node --columns x,y", "--columns", "it is for tables"),
+        ("check m.off --format off", "--format", "it names the format of -"),
+        ("check m.off --input p.csv --input-format off", "--input-format", "no file to read is -"),
+        ("plot m.off -o k.svg --columns x,y", "--columns", "no table is read without --input"),
+        ("plot m.off -o k.svg --format off", "--format", "it names the format of -"),
+        ("convert m.off k.vtu --columns x,y", "--columns", "it is for tables, and m.off is not one"),
+        ("convert m.node k.poly --columns x,y", "--columns", "it is for tables, and m.node is not one"),
+        ("convert p.json k.poly --columns x,y", "--columns", "it is for tables, and p.json is not one"),
+        ("generate grid 5 -o k.csv --format csv", "--format", "it names the format of -"),
+    ] {
+        bench.run(arguments).refused(&format!("{option} has no effect: {words}"));
+        assert_eq!(bench.names(), before, "{arguments}");
+    }
+    bench.run("generate grid 5 -o k.csv --columns x,y").refused("unexpected argument '--columns'");
+    bench.run("mesh p.csv -q -o k.svg --histogram --pixels 100").fine();
 }
 
 #[test]
