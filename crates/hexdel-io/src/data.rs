@@ -83,6 +83,11 @@ impl MeshData {
             });
         }
         let triangles = self.mesh.triangles.len();
+        if let Some(wrong) = self.promised.as_ref().and_then(|promised| promised.wrong_triangle(triangles)) {
+            let expected = "exempt triangles that are there, each once";
+            let (file, found) = (file.to_owned(), wrong.to_string());
+            return Err(ReadError::Malformed { file, line: 0, column: 0, expected, found });
+        }
         for (array, expected, found) in [
             ("input indices", vertices.len(), self.input_indices.as_ref().map(Vec::len)),
             ("vertex markers", vertices.len(), self.vertex_markers.as_ref().map(Vec::len)),

@@ -57,11 +57,11 @@ pub enum ReadError {
         limit: usize,
     },
     /// A field is missing, superfluous or of the wrong kind.
-    #[error("{file}:{line}: expected {expected}, found {found}")]
+    #[error("{}: expected {expected}, found {found}", at(file, *line))]
     Malformed {
         /// The file.
         file: String,
-        /// The line.
+        /// The line; 0 if the format does not tell.
         line: u64,
         /// Where in the line, in bytes from 1; 0 if it is not known.
         column: u64,

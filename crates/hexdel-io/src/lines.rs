@@ -42,13 +42,13 @@ pub(crate) struct Lines<R> {
     buffer: Vec<u8>,
     /// Number of the line in `buffer`, from 1; 0 before the first.
     number: u64,
-    /// Comments so far that are ours, a line each.
-    notes: String,
+    /// Comments so far that are ours, with their lines.
+    notes: Vec<(u64, String)>,
 }
 
 impl<R: BufRead> Lines<R> {
     pub(crate) fn new(reader: R, file: &str, comments: Comments) -> Self {
-        Self { reader, file: file.to_owned(), comments, buffer: Vec::new(), number: 0, notes: String::new() }
+        Self { reader, file: file.to_owned(), comments, buffer: Vec::new(), number: 0, notes: Vec::new() }
     }
 
     pub(crate) fn file(&self) -> &str {
@@ -60,9 +60,9 @@ impl<R: BufRead> Lines<R> {
         self.number
     }
 
-    /// The comments read so far that say what a mesh was made to keep.
-    pub(crate) fn notes(&self) -> &str {
-        &self.notes
+    /// The comments read so far that say what a mesh was made to keep, with their lines.
+    pub(crate) fn notes(&self) -> impl ExactSizeIterator<Item = (u64, &str)> {
+        self.notes.iter().map(|(line, note)| (*line, note.as_str()))
     }
 
     /// The next line with something on it, trimmed, without comment.
@@ -77,8 +77,8 @@ impl<R: BufRead> Lines<R> {
             // for one of comments only.
             let comment = self.text()?.trim_ascii_start().trim_start_matches(['#', ' ']).trim_ascii_end();
             if comment.starts_with(PREFIX) {
-                let note = comment.to_owned() + "\n";
-                self.notes.push_str(&note);
+                let note = (self.number, comment.to_owned());
+                self.notes.push(note);
             }
         }
         Ok(None)

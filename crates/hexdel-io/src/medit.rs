@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn faults_have_lines() {
         for (text, message) in [
-            ("", "f:0: expected MeshVersionFormatted, found the end of the file"),
+            ("", "f: expected MeshVersionFormatted, found the end of the file"),
             ("Vertices", "f:1: expected MeshVersionFormatted, found \"Vertices\""),
             ("Dimension 4", "f:2: expected dimension 2 or 3, found \"4\""),
             ("Vertices 1000000000000", "f:2: more than 4294967295 vertices"),

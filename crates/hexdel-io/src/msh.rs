@@ -12,12 +12,13 @@ use std::collections::HashMap;
 use std::io::BufRead;
 
 use hexdel_geom::{TriMesh, VertexId};
+use rustc_hash::FxHashSet;
 
 use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Comments, quote};
 use crate::msh_out::{LINE, POINT, TRIANGLE};
-use crate::promised::Promised;
+use crate::promised::{NotPromised, PREFIX, Promised};
 use crate::tags::{Sorted, Tags};
 use crate::tokens::Tokens;
 use crate::view::MarkedEdge;
@@ -54,7 +55,8 @@ struct Msh<R> {
     markers: Option<Vec<(u64, f64)>>,
     inputs: Option<Vec<(u64, f64)>>,
     regions: Option<Vec<(u64, f64)>>,
-    exempt: Vec<(u64, f64)>,
+    /// The rows of the section of that name, with the line of its end.
+    exempt: Option<(Vec<(u64, f64)>, u64)>,
     promised: Option<Promised>,
 }
 
@@ -72,7 +74,7 @@ impl<R: BufRead> Msh<R> {
             markers: None,
             inputs: None,
             regions: None,
-            exempt: Vec::new(),
+            exempt: None,
             promised: None,
         }
     }
@@ -118,10 +120,24 @@ impl<R: BufRead> Msh<R> {
             if line.strip_prefix("$End") == Some(section) {
                 return Ok(());
             }
-            if let Some(Ok(promised)) = line.split('"').nth(1).map(str::parse) {
-                self.promised = Some(promised);
+            let name = line.split('"').nth(1).filter(|name| name.starts_with(PREFIX)).map(str::to_owned);
+            if let Some(name) = name {
+                self.promise(&name)?;
             }
         }
+    }
+
+    /// What the name of a group says that the mesh was made to keep.
+    fn promise(&mut self, name: &str) -> Result<(), ReadError> {
+        let promised = name
+            .parse()
+            .map_err(|fault: NotPromised| self.tokens.malformed(fault.expected, Some(fault.found)))?;
+        if self.promised.replace(promised).is_some() {
+            return Err(self
+                .tokens
+                .malformed("one name of a group that begins with \"hexdel: \"", Some(quote(name))));
+        }
+        Ok(())
     }
 
     fn entities(&mut self) -> Result<(), ReadError> {
@@ -331,7 +347,11 @@ impl<R: BufRead> Msh<R> {
         match name.as_str() {
             "marker" => self.markers = Some(rows),
             "region" => self.regions = Some(rows),
-            "exempt" => self.exempt = rows,
+            "exempt" => {
+                if self.exempt.replace((rows, self.tokens.line())).is_some() {
+                    return Err(self.tokens.malformed("one section of element data \"exempt\"", None));
+                }
+            }
             _ => self.inputs = Some(rows),
         }
         self.end(section)
@@ -359,9 +379,7 @@ impl<R: BufRead> Msh<R> {
         let (vertices, file) = (data.mesh.vertices.len(), self.tokens.file());
         let (tags, triangles) = self.triangles.sorted();
         if let Some(mut promised) = self.promised {
-            let exempt = self.exempt.iter().filter(|row| row.1 != 0.0);
-            let index = |tag: &u64| tags.binary_search(tag).ok().map(|t| t as u32);
-            promised.exempt = exempt.filter_map(|(tag, _)| index(tag)).collect();
+            promised.exempt = exempt(self.exempt.as_ref(), &tags, file)?;
             data.promised = Some(promised);
         }
         if let Some(rows) = self.regions {
@@ -398,6 +416,23 @@ impl<R: BufRead> Msh<R> {
         }
         Ok(data)
     }
+}
+
+/// The triangles, by position among those of the numbers given, that a section has with 1.
+fn exempt(section: Option<&(Vec<(u64, f64)>, u64)>, tags: &[u64], file: &str) -> Result<Vec<u32>, ReadError> {
+    let Some((rows, line)) = section else { return Ok(Vec::new()) };
+    let mut seen = FxHashSet::default();
+    let marked = rows.iter().filter(|(_, value)| *value != 0.0).map(|&(tag, value)| {
+        let triangle = tags.binary_search(&tag).ok().map(|t| t as u32);
+        triangle.filter(|&t| value == 1.0 && seen.insert(t)).ok_or_else(|| ReadError::Malformed {
+            file: file.to_owned(),
+            line: *line,
+            column: 0,
+            expected: "0, or 1 for triangles that are exempt, each once",
+            found: format!("{value} for element {tag}"),
+        })
+    });
+    marked.collect()
 }
 
 /// The numbers of a section of data by item, 0 where there is none.

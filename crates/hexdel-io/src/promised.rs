@@ -15,7 +15,11 @@ use std::fmt;
 use std::str::FromStr;
 
 use hexdel_geom::AngleBounds;
+use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::lines::quote;
 
 /// What a mesh was made to keep.
 ///
@@ -91,9 +95,24 @@ pub(crate) const PREFIX: &str = "hexdel: ";
 /// Exempt triangles in a line: some hundred kilobytes, so that readers of lines take it.
 const IN_LINE: usize = 10_000;
 
-/// A text that is none of ours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotPromised;
+/// What is wrong with a text of promises.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("line {line}: expected {expected}, found {found}")]
+#[non_exhaustive]
+pub struct NotPromised {
+    /// The line, counted from 1.
+    pub line: u64,
+    /// What should be there.
+    pub expected: &'static str,
+    /// What is there, in quotation marks, cut to a readable length.
+    pub found: String,
+}
+
+/// What the first line must be.
+const HEAD: &str = "hexdel: angles MIN MAX far MIN MAX domain NAME";
+
+/// What each other line must be.
+const EXEMPT: &str = "hexdel: exempt and the numbers of triangles, each once";
 
 impl Promised {
     /// The line without the exempt triangles.
@@ -119,37 +138,58 @@ impl FromStr for Promised {
     type Err = NotPromised;
 
     fn from_str(text: &str) -> Result<Self, NotPromised> {
-        let mut lines = text.lines().map(|line| line.strip_prefix(PREFIX).ok_or(NotPromised));
-        let mut words = lines.next().ok_or(NotPromised)??.split_ascii_whitespace();
-        keyword(&mut words, "angles")?;
-        let near = bounds(&mut words)?;
-        keyword(&mut words, "far")?;
-        let far = bounds(&mut words)?;
-        keyword(&mut words, "domain")?;
-        let name = words.next().ok_or(NotPromised)?;
-        let domain = DOMAINS.into_iter().find(|d| d.name() == name).ok_or(NotPromised)?;
-        if words.next().is_some() {
-            return Err(NotPromised);
-        }
-        let mut exempt = Vec::new();
-        for line in lines {
-            let mut words = line?.split_ascii_whitespace();
-            keyword(&mut words, "exempt")?;
-            for word in words {
-                exempt.push(word.parse().map_err(|_| NotPromised)?);
-            }
-        }
-        Ok(Self { near, far, domain, exempt })
+        Self::of_lines((1..).zip(text.lines()), usize::MAX)
     }
 }
 
-fn keyword<'a>(words: &mut impl Iterator<Item = &'a str>, expected: &str) -> Result<(), NotPromised> {
-    if words.next() == Some(expected) { Ok(()) } else { Err(NotPromised) }
+impl Promised {
+    /// What numbered lines say of a mesh of so many triangles.
+    pub(crate) fn of_lines<'a>(
+        lines: impl IntoIterator<Item = (u64, &'a str)>,
+        triangles: usize,
+    ) -> Result<Self, NotPromised> {
+        let mut lines = lines.into_iter();
+        let (line, text) = lines.next().unwrap_or((1, ""));
+        let fault = |line, expected, found| NotPromised { line, expected, found: quote(found) };
+        let head = || {
+            let mut words = text.strip_prefix(PREFIX)?.split_ascii_whitespace();
+            keyword(&mut words, "angles")?;
+            let near = bounds(&mut words)?;
+            keyword(&mut words, "far")?;
+            let far = bounds(&mut words)?;
+            keyword(&mut words, "domain")?;
+            let name = words.next()?;
+            let domain = DOMAINS.into_iter().find(|d| d.name() == name)?;
+            let exempt = Vec::new();
+            words.next().is_none().then_some(Self { near, far, domain, exempt })
+        };
+        let mut promised = head().ok_or_else(|| fault(line, HEAD, text))?;
+        let mut seen = FxHashSet::default();
+        for (line, text) in lines {
+            let numbers = text.strip_prefix(PREFIX).and_then(|rest| rest.strip_prefix("exempt"));
+            let numbers = numbers.filter(|rest| rest.is_empty() || rest.starts_with(' '));
+            for word in numbers.ok_or_else(|| fault(line, EXEMPT, text))?.split_ascii_whitespace() {
+                let number = word.parse().ok().filter(|&t: &u32| (t as usize) < triangles && seen.insert(t));
+                promised.exempt.push(number.ok_or_else(|| fault(line, EXEMPT, word))?);
+            }
+        }
+        Ok(promised)
+    }
+
+    /// The first exempt triangle that is not there, or is there twice.
+    pub(crate) fn wrong_triangle(&self, triangles: usize) -> Option<u32> {
+        let mut seen = FxHashSet::default();
+        self.exempt.iter().copied().find(|&t| t as usize >= triangles || !seen.insert(t))
+    }
 }
 
-fn bounds<'a>(words: &mut impl Iterator<Item = &'a str>) -> Result<AngleBounds, NotPromised> {
-    let mut number = || words.next().and_then(|w| w.parse().ok()).ok_or(NotPromised);
-    AngleBounds::new(number()?, number()?).map_err(|_| NotPromised)
+fn keyword<'a>(words: &mut impl Iterator<Item = &'a str>, expected: &str) -> Option<()> {
+    words.next().filter(|word| *word == expected).map(drop)
+}
+
+fn bounds<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<AngleBounds> {
+    let mut number = || words.next()?.parse().ok();
+    AngleBounds::new(number()?, number()?).ok()
 }
 
 #[cfg(test)]
@@ -166,17 +206,21 @@ mod tests {
             assert_eq!(promised.to_string().parse(), Ok(promised.clone()));
             assert_eq!(PromisedDomain::of_number(f64::from(domain.number())), Some(domain));
         }
-        for text in [
-            "",
-            "angles 30 90 far 30 90 domain hull",
-            "hexdel: angles 30 90",
-            "hexdel: angles 90 30 far 30 90 domain hull",
-            "hexdel: angles 30 90 far 30 90 domain moon",
-            "hexdel: angles 30 90 far 30 90 domain hull\nhexdel: exempt x",
-            "hexdel: angles 30 90 far 30 90 domain hull\nexempt 3",
-            "hexdel: angles 30 90 far 30 90 domain hull exempt 3",
+        for (line, text) in [
+            (1, ""),
+            (1, "angles 30 90 far 30 90 domain hull"),
+            (1, "hexdel: angles 30 90"),
+            (1, "hexdel: angles 90 30 far 30 90 domain hull"),
+            (1, "hexdel: angles 30 90 far 30 90 domain moon"),
+            (2, "hexdel: angles 30 90 far 30 90 domain hull\nhexdel: exempt x"),
+            (2, "hexdel: angles 30 90 far 30 90 domain hull\nexempt 3"),
+            (1, "hexdel: angles 30 90 far 30 90 domain hull exempt 3"),
+            (2, "hexdel: angles 30 90 far 30 90 domain hull\nhexdel: exempt -1"),
+            (2, "hexdel: angles 30 90 far 30 90 domain hull\nhexdel: exempted"),
+            (3, "hexdel: angles 30 90 far 30 90 domain hull\nhexdel: exempt 3\nhexdel: exempt 4 3"),
+            (2, "hexdel: angles 30 90 far 30 90 domain hull\nhexdel: angles 30 90 far 30 90 domain hull"),
         ] {
-            assert_eq!(text.parse::<Promised>(), Err(NotPromised), "{text}");
+            assert_eq!(text.parse::<Promised>().map_err(|e| e.line), Err(line), "{text}");
         }
         assert_eq!(PromisedDomain::of_number(4.0), None);
     }

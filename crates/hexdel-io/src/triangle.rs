@@ -30,6 +30,7 @@ use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Comments, Fields, Lines, quote};
 use crate::mend::{Faults, Mends};
+use crate::promised::{NotPromised, Promised};
 
 /// The most items reserved on the word of a header, about a megabyte of points.
 const MAX_RESERVE: u64 = 1 << 16;
@@ -115,8 +116,19 @@ pub(crate) fn read_ele(
     end_of_file(&mut lines, "triangles")?;
     let vertex_markers = (!points.point_markers.is_empty()).then_some(points.point_markers);
     let regions = (attributes > 0).then_some(regions);
-    let promised = lines.notes().parse().ok();
+    let promised = promised(&lines, mesh.triangles.len())?;
     Ok(MeshData { input_indices, vertex_markers, regions, promised, ..MeshData::new(mesh) })
+}
+
+/// What comments say that the mesh was made to keep.
+fn promised<R: BufRead>(lines: &Lines<R>, triangles: usize) -> Result<Option<Promised>, ReadError> {
+    if lines.notes().len() == 0 {
+        return Ok(None);
+    }
+    Promised::of_lines(lines.notes(), triangles).map(Some).map_err(|fault| {
+        let NotPromised { line, expected, found } = fault;
+        ReadError::Malformed { file: lines.file().to_owned(), line, column: 0, expected, found }
+    })
 }
 
 /// The only attribute of vertices, if it can be what is written here: the index of
@@ -135,8 +147,9 @@ fn input_indices(points: &Pslg) -> Option<Vec<Option<u32>>> {
     distinct.windows(2).all(|w| w[0] < w[1]).then_some(indices)
 }
 
-/// Attributes of a point, at most: what rows lack is filled in, however many a header claims.
-const MOST_ATTRIBUTES: usize = 1000;
+/// Attributes of a point, at most, of which those that a row lacks are filled in. Rows of more
+/// must have them all: memory grows with what is in the file, whatever a header claims.
+const MOST_FILLED_IN: usize = 16;
 
 fn point_section<R: BufRead>(
     lines: &mut Lines<R>,
@@ -149,11 +162,7 @@ fn point_section<R: BufRead>(
     if dimension != 2 {
         return Err(header.row.malformed("dimension 2", found));
     }
-    let found = header.peek();
     let attributes = header.integer_or(0usize, "the number of attributes")?;
-    if attributes > MOST_ATTRIBUTES {
-        return Err(header.row.malformed("a thousand attributes at most", found));
-    }
     let markers = marker_column(&mut header)?;
     end(header, mends)?;
 
@@ -164,7 +173,7 @@ fn point_section<R: BufRead>(
         let point = fields.position("point", index)?;
         let read = pslg.point_attributes.len();
         for _ in 0..attributes {
-            match attribute(fields, mends) {
+            match attribute(fields, attributes, mends) {
                 Ok(attribute) => pslg.point_attributes.push(attribute),
                 Err(error) => {
                     pslg.point_attributes.truncate(read);
@@ -246,9 +255,9 @@ fn marker_column(header: &mut Fields<'_>) -> Result<bool, ReadError> {
     }
 }
 
-/// An attribute of a point, 0 where it is missing.
-fn attribute(fields: &mut Fields<'_>, mends: &mut Mends) -> Result<f64, ReadError> {
-    if fields.peek().is_none() {
+/// An attribute of a point that is to have so many, 0 where it is missing.
+fn attribute(fields: &mut Fields<'_>, count: usize, mends: &mut Mends) -> Result<f64, ReadError> {
+    if count <= MOST_FILLED_IN && fields.peek().is_none() {
         let missing = || fields.row.malformed("an attribute", None);
         mends.forgive("missing attributes are taken to be 0", missing)?;
         return Ok(0.0);

@@ -29,6 +29,12 @@ const VERTEX: f64 = 1.0;
 const LINE: f64 = 3.0;
 const TRIANGLE: f64 = 5.0;
 
+/// What field data of exempt triangles must be.
+const EXEMPT: &str = "numbers of triangles, each once, as hexdel_exempt";
+
+/// Numbers of field data that are quoted.
+const SHOWN: usize = 5;
+
 /// The most items, so that 32-bit ids reach all of them.
 const MAX_ITEMS: usize = u32::MAX as usize;
 
@@ -109,8 +115,8 @@ struct Grid {
     /// How the arrays are stored, as soon as the file says so.
     encoding: Option<Encoding>,
     pieces: Vec<Piece>,
-    /// Field data.
-    fields: Vec<(Want, Array)>,
+    /// Field data, with their lines.
+    fields: Vec<(Want, Array, u64)>,
     /// The names of the tags around.
     place: Vec<String>,
 }
@@ -229,7 +235,10 @@ impl Grid {
 
     fn keep(&mut self, want: Want, array: Array) -> Result<(), ReadError> {
         if matches!(want, Want::Bounds | Want::Domain | Want::Exempt) {
-            self.fields.push((want, array));
+            if self.fields.iter().any(|(w, ..)| *w == want) {
+                return Err(self.fault("field data that the file has already".to_owned()));
+            }
+            self.fields.push((want, array, self.line.get()));
             return Ok(());
         }
         let fault = match self.pieces.last_mut() {
@@ -296,27 +305,49 @@ impl Grid {
             self.piece(piece, &encoding, &mut appended, &mut data, &mut columns)?;
         }
         columns.settle(&mut data);
-        data.promised = self.promised(&encoding, &mut appended)?;
+        data.promised = self.promised(&encoding, &mut appended, data.mesh.triangles.len())?;
         Ok(data)
     }
 
-    /// What field data say that the mesh was made to keep; none if they do not fit.
+    /// What field data say that a mesh of so many triangles was made to keep.
     fn promised(
         &mut self,
         encoding: &Encoding,
         appended: &mut Appended,
+        triangles: usize,
     ) -> Result<Option<Promised>, ReadError> {
         let mut values: Vec<(Want, Vec<f64>)> = Vec::new();
-        for (want, array) in std::mem::take(&mut self.fields) {
+        let mut last = None;
+        for (want, array, line) in std::mem::take(&mut self.fields) {
             let found = array.values(encoding, appended).map_err(|fault| self.fault(fault))?;
             values.push((want, (0..found.len()).map(|i| found.get(i)).collect()));
+            last = last.max(Some(line));
         }
-        let take = |want| values.iter().find(|(w, _)| *w == want).map_or(&[][..], |(_, v)| v);
-        let (&[a, b, c, d], &[domain]) = (take(Want::Bounds), take(Want::Domain)) else { return Ok(None) };
-        let (Ok(near), Ok(far)) = (AngleBounds::new(a, b), AngleBounds::new(c, d)) else { return Ok(None) };
-        let exempt = take(Want::Exempt).iter().map(|&t| t as u32).collect();
-        let domain = PromisedDomain::of_number(domain);
-        Ok(domain.map(|domain| Promised { near, far, domain, exempt }))
+        let Some(line) = last else { return Ok(None) };
+        let of = |want| values.iter().find(|(w, _)| *w == want).map_or(&[][..], |(_, v)| v);
+        let fault = |expected, found: &[f64]| {
+            let found = found.iter().take(SHOWN).map(ToString::to_string).collect::<Vec<_>>().join(" ");
+            let found = if found.is_empty() { "none".to_owned() } else { found };
+            ReadError::Malformed { file: self.file.clone(), line, column: 0, expected, found }
+        };
+        let (bounds, domain) = (of(Want::Bounds), of(Want::Domain));
+        let pair = |i: usize| AngleBounds::new(*bounds.get(i)?, *bounds.get(i + 1)?).ok();
+        let (Some(near), Some(far), 4) = (pair(0), pair(2), bounds.len()) else {
+            return Err(fault("four bounds of angles as hexdel_bounds", bounds));
+        };
+        let &[number] = domain else { return Err(fault("one number as hexdel_domain", domain)) };
+        let Some(domain) = PromisedDomain::of_number(number) else {
+            return Err(fault("the number of a domain as hexdel_domain", domain));
+        };
+        let mut promised = Promised { near, far, domain, exempt: Vec::new() };
+        for &t in of(Want::Exempt) {
+            let number = Some(t as u32).filter(|&number| f64::from(number) == t);
+            promised.exempt.push(number.ok_or_else(|| fault(EXEMPT, &[t]))?);
+        }
+        match promised.wrong_triangle(triangles) {
+            Some(wrong) => Err(fault(EXEMPT, &[f64::from(wrong)])),
+            None => Ok(Some(promised)),
+        }
     }
 
     fn piece(

@@ -3,7 +3,7 @@
 use std::io::{BufReader, Read};
 
 use hexdel_io::PointFormat::{self, Node, Poly, Table};
-use hexdel_io::{ReadError, read_mesh_pair, read_points_from};
+use hexdel_io::{PointReader, ReadError, read_mesh_pair, read_points_from};
 
 fn error(format: PointFormat, text: &[u8]) -> ReadError {
     match read_points_from(text, format, "f") {
@@ -36,6 +36,33 @@ fn headers() {
     assert_error!(Node, "1 2 0 2", Malformed, "f:1: expected 0 or 1 boundary markers, found \"2\"");
     assert_error!(Node, "1 2 0 0 7", Malformed, "f:1: expected end of line, found \"7\"");
     assert_error!(Poly, "0 2\n", PointsElsewhere, "f:1: the points are in another file");
+}
+
+/// Rows must have as many attributes as the header says, however many that are; only a few
+/// that are missing are filled in.
+#[test]
+fn attributes_are_as_many_as_announced() {
+    let row = |count: usize| format!("1 2 3000\n0 0.5 1{}\n", " 7".repeat(count));
+    let pslg = read_points_from(row(3000).as_bytes(), Node, "f").unwrap();
+    assert_eq!((pslg.attributes_per_point, pslg.attributes(0)), (3000, &[7.0; 3000][..]));
+    assert_error!(Node, row(2999), Malformed, "f:2: expected an attribute, found end of line");
+    let lenient = |text: &str| PointReader::new().read_from(text.as_bytes(), Node, "f");
+    let filled = lenient("1 2 16\n0 0.5 1 7\n").unwrap();
+    assert_eq!((filled.pslg.attributes(0)[0], filled.pslg.attributes(0)[15], filled.warnings.len()), (7.0, 0.0, 1));
+    for (text, message) in [
+        ("1 2 17\n0 0.5 1 7\n", "f:2: expected an attribute, found end of line"),
+        // No memory is taken for what a header claims.
+        ("1 2 4000000000\n0 0.5 1 7\n", "f:2: expected an attribute, found end of line"),
+        ("1 2 18446744073709551615\n0 0.5 1\n", "f:2: expected an attribute, found end of line"),
+        (
+            "3 2 4000000000\n0 0 0\n1 1 0\n2 0 1\n",
+            "f:2: expected an attribute, found end of line\nf:3: expected an attribute, found end of line\n\
+             f:4: expected an attribute, found end of line",
+        ),
+    ] {
+        assert_eq!(lenient(text).unwrap_err().to_string(), message);
+    }
+    assert!(lenient("0 2 4000000000\n").unwrap().pslg.points.is_empty());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Every way a file of a mesh can be wrong is a typed error, with its line where the
 //! format has lines. OBJ, OFF and Medit's format are tested beside their readers.
 
-use hexdel_io::{MeshFormat, ReadError, read_mesh_from};
+use hexdel_io::{MeshFormat, ReadError, read_mesh_from, read_mesh_pair};
 
 fn error(format: MeshFormat, text: &str) -> ReadError {
     match read_mesh_from(text.as_bytes(), format, "f") {
@@ -181,4 +181,137 @@ fn json_and_ron_of_no_mesh() {
     assert!(matches!(error(MeshFormat::Json, &deep), ReadError::Json { .. }));
     let ron = "(vertices: [], triangles: [], vertex_markers: Some([1]))";
     assert_eq!(error(MeshFormat::Ron, ron).to_string(), "f: 1 vertex markers instead of 0");
+}
+
+/// What a mesh was made to keep is read or refused, in every format that has it.
+#[test]
+fn promises_that_make_no_sense_are_refused_with_their_line() {
+    let ele = |notes: &str| {
+        let elements = format!("1 3\n0 0 1 2\n{notes}");
+        read_mesh_pair((&b"3 2\n0 0 0\n1 1 0\n2 0 1\n"[..], "n"), (elements.as_bytes(), "f"))
+    };
+    let head = "# hexdel: angles 30 90 far 43 90 domain inside\n";
+    assert_eq!(ele(&format!("{head}# hexdel: exempt 0\n")).unwrap().promised.unwrap().exempt, [0]);
+    assert_eq!(ele("# made by hexdel 1.0\n").unwrap().promised, None);
+    for (notes, message) in [
+        (
+            "# hexdel: angles 30\n".to_owned(),
+            "f:3: expected hexdel: angles MIN MAX far MIN MAX domain NAME, found \"hexdel: angles 30\"",
+        ),
+        (
+            "# hexdel: exempt 0\n".to_owned(),
+            "f:3: expected hexdel: angles MIN MAX far MIN MAX domain NAME, found \"hexdel: exempt 0\"",
+        ),
+        (
+            format!("{head}\n# hexdel: exempt 1\n"),
+            "f:5: expected hexdel: exempt and the numbers of triangles, each once, found \"1\"",
+        ),
+        (
+            format!("{head}# hexdel: exempt 0\n# hexdel: exempt 0\n"),
+            "f:5: expected hexdel: exempt and the numbers of triangles, each once, found \"0\"",
+        ),
+    ] {
+        assert_eq!(ele(&notes).unwrap_err().to_string(), message);
+    }
+
+    let promised = |exempt: &str| {
+        format!(
+            "{{\"vertices\": [[0, 0], [1, 0], [0, 1]], \"triangles\": [[0, 1, 2]], \"promised\": {{\"near\": \
+             {{\"min_deg\": 30, \"max_deg\": 90}}, \"far\": {{\"min_deg\": 43, \"max_deg\": 90}}, \
+             \"domain\": \"hull\", \"exempt\": {exempt}}}}}"
+        )
+    };
+    for (exempt, found) in [("[1]", "1"), ("[0, 0]", "0")] {
+        let message = format!("f: expected exempt triangles that are there, each once, found {found}");
+        assert_eq!(error(MeshFormat::Json, &promised(exempt)).to_string(), message);
+    }
+    for exempt in ["[-1]", "[0.5]"] {
+        assert!(matches!(error(MeshFormat::Json, &promised(exempt)), ReadError::Json { .. }));
+    }
+}
+
+#[test]
+fn promises_of_msh_are_refused_with_their_line() {
+    let msh = |names: &str, rows: &str| {
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{names}$EndPhysicalNames\n$Nodes\n3\n\
+             1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n7 2 0 1 2 3\n$EndElements\n{rows}"
+        )
+    };
+    let head = "2 9 \"hexdel: angles 30 90 far 43 90 domain hull\"\n";
+    let rows = |rows: &str| {
+        let count = rows.lines().count();
+        format!("$ElementData\n1\n\"exempt\"\n0\n3\n0\n1\n{count}\n{rows}$EndElementData\n")
+    };
+    let read = |text: &str| read_mesh_from(text.as_bytes(), MeshFormat::Msh22, "f");
+    let data = read(&msh(&format!("1\n{head}"), &rows("7 1\n"))).unwrap();
+    assert_eq!(data.promised.unwrap().exempt, [0]);
+    assert_eq!(read(&msh("1\n2 9 \"steel\"\n", "")).unwrap().promised, None);
+    for (text, message) in [
+        (
+            msh("1\n2 9 \"hexdel: angles 30 90\"\n", ""),
+            "f:6: expected hexdel: angles MIN MAX far MIN MAX domain NAME, found \"hexdel: angles 30 90\"",
+        ),
+        (
+            msh(&format!("2\n{head}{head}"), ""),
+            "f:7: expected one name of a group that begins with \"hexdel: \", found \
+             \"hexdel: angles 30 90 far 43 90 domain hu..\"",
+        ),
+        (
+            msh(&format!("1\n{head}"), &rows("8 1\n")),
+            "f:26: expected 0, or 1 for triangles that are exempt, each once, found 1 for element 8",
+        ),
+        (
+            msh(&format!("1\n{head}"), &rows("7 nan\n")),
+            "f:26: expected 0, or 1 for triangles that are exempt, each once, found NaN for element 7",
+        ),
+        (
+            msh(&format!("1\n{head}"), &rows("7 1\n7 1\n")),
+            "f:27: expected 0, or 1 for triangles that are exempt, each once, found 1 for element 7",
+        ),
+        (
+            msh(&format!("1\n{head}"), &rows("7 1\n").repeat(2)),
+            "f:36: expected one section of element data \"exempt\", found \"1\"",
+        ),
+    ] {
+        assert_eq!(error(MeshFormat::Msh22, &text).to_string(), message, "{text}");
+    }
+}
+
+#[test]
+fn promises_of_vtu_are_refused_with_their_line() {
+    let field = |name: &str, values: &str| {
+        format!("<DataArray type=\"Float64\" Name=\"hexdel_{name}\" format=\"ascii\">{values}</DataArray>\n")
+    };
+    let all = |bounds: &str, domain: &str, exempt: &str| {
+        let fields = [field("bounds", bounds), field("domain", domain), field("exempt", exempt)].concat();
+        format!("<UnstructuredGrid>\n<FieldData>\n{fields}</FieldData>\n")
+    };
+    let with = |fields: &str| vtu(&[("<UnstructuredGrid>\n", fields)]);
+    let read = |fields: &str| read_mesh_from(with(fields).as_bytes(), MeshFormat::Vtu, "f");
+    assert_eq!(read(&all("30 90 43 90", "3", "0")).unwrap().promised.unwrap().exempt, [0]);
+    let triangles = "numbers of triangles, each once, as hexdel_exempt";
+    let none = format!("<FieldData>\n{}</FieldData>\n<UnstructuredGrid>\n", field("exempt", "0"));
+    for (fields, message) in [
+        (all("30 90 43 90", "3", "-1"), format!("f:7: expected {triangles}, found -1")),
+        (all("30 90 43 90", "3", "0.5"), format!("f:7: expected {triangles}, found 0.5")),
+        (all("30 90 43 90", "3", "nan"), format!("f:7: expected {triangles}, found NaN")),
+        (all("30 90 43 90", "3", "1"), format!("f:7: expected {triangles}, found 1")),
+        (all("30 90 43 90", "3", "0 0"), format!("f:7: expected {triangles}, found 0")),
+        (
+            all("30 90 43", "3", "0"),
+            "f:7: expected four bounds of angles as hexdel_bounds, found 30 90 43".to_owned(),
+        ),
+        (
+            all("90 30 43 90", "3", "0"),
+            "f:7: expected four bounds of angles as hexdel_bounds, found 90 30 43 90".to_owned(),
+        ),
+        (all("30 90 43 90", "4", "0"), "f:7: expected the number of a domain as hexdel_domain, found 4".to_owned()),
+        (all("30 90 43 90", "", "0"), "f:7: expected one number as hexdel_domain, found none".to_owned()),
+        (none, "f:4: expected four bounds of angles as hexdel_bounds, found none".to_owned()),
+    ] {
+        assert_eq!(error(MeshFormat::Vtu, &with(&fields)).to_string(), message, "{fields}");
+    }
+    let twice = all("30 90 43 90", "3", "0").replace("</FieldData>", &format!("{}</FieldData>", field("domain", "3")));
+    assert!(error(MeshFormat::Vtu, &with(&twice)).to_string().contains("that the file has already"));
 }
