@@ -8,22 +8,23 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, and this one talks")]
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, ExitCode};
 
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
 use hexdel_io::{MarkedEdge, MeshData, Promised, PromisedDomain, write_mesh};
 
+#[path = "support/python.rs"]
+mod python;
+
 /// What is installed. A new version must not break an old commit.
 const PACKAGES: [&str; 2] = ["meshio==5.3.5", "numpy<3"];
 
 fn main() -> ExitCode {
-    // Asked for a list of tests, there is one, without a name of its own.
-    if std::env::args().any(|argument| argument == "--list") {
+    if python::is_asked_for_a_list() {
         return ExitCode::SUCCESS;
     }
-    let python = match environment() {
+    let python = match python::environment(env!("CARGO_TARGET_TMPDIR"), "meshio", &PACKAGES) {
         Ok(python) => python,
         Err(reason) if std::env::var_os("HEXDEL_REQUIRE_MESHIO").is_some() => {
             println!("meshio: required and not there, {reason}");
@@ -46,35 +47,6 @@ fn main() -> ExitCode {
         }
     }
     ExitCode::SUCCESS
-}
-
-/// A Python that has meshio, or why there is none.
-fn environment() -> Result<PathBuf, String> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("meshio");
-    let python = ["bin/python", "Scripts/python.exe"].map(|name| folder.join(name));
-    let complete = folder.join("complete");
-    let wanted = PACKAGES.join(" ");
-    let there = || python.iter().find(|python| python.exists()).cloned();
-    if fs::read_to_string(&complete).is_ok_and(|found| found == wanted)
-        && let Some(python) = there()
-    {
-        return Ok(python);
-    }
-    let run = |program: &Path, arguments: &[&str], what: &str| {
-        let found = Command::new(program).args(arguments).output().map_err(|e| format!("{what}: {e}"))?;
-        if found.status.success() {
-            return Ok(());
-        }
-        let said = String::from_utf8_lossy(&found.stderr);
-        Err(format!("{what}: {}", said.lines().last().unwrap_or("it failed")))
-    };
-    let place = folder.display().to_string();
-    run(Path::new("python3"), &["-m", "venv", "--clear", &place], "python3 makes no virtual environment")?;
-    let python = there().ok_or("the virtual environment has no python")?;
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--retries", "1"];
-    run(&python, &[&install[..], &PACKAGES].concat(), "pip installs no meshio")?;
-    fs::write(complete, wanted).map_err(|e| e.to_string())?;
-    Ok(python)
 }
 
 /// Writes a mesh with everything in every format.
