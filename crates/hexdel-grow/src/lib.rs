@@ -19,6 +19,11 @@
 //! The idea that a vertex is best placed so that its surroundings are good, not only the triangle at hand: Erten & Ungor,
 //! "Quality Triangulations with Locally Optimal Steiner Points", SIAM J. Sci. Comput. 31 (2009).
 
+/// The example of the README, so that it stays true.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod error;
 mod limits;
 mod options;
