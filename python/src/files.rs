@@ -63,7 +63,9 @@ pub(crate) fn read_graph(
     columns: Option<String>,
 ) -> PyResult<Bound<'_, PyDict>> {
     let columns: Option<io::Columns> = columns
-        .map(|text| text.parse().map_err(|error: String| errors::plain(py, "option", &error)))
+        .map(|text| {
+            text.parse().map_err(|error: io::ColumnsError| errors::plain(py, "option", &error.to_string()))
+        })
         .transpose()?;
     let read = aside(py, move || io::PointReader::new().columns(columns).read(&path))?;
     let file = read.map_err(|error| errors::of_reading(py, &error))?;

@@ -68,7 +68,7 @@ pub(crate) enum Failure {
     Commands { failed: usize },
     #[error("{option} has no effect: {why}")]
     Unused { option: &'static str, why: String },
-    #[error("{name}: no format of {what}")]
+    #[error("{name} is not a format of {what}")]
     UnknownFormat { name: String, what: &'static str },
     #[error("-{switch}: {why}")]
     #[diagnostic(help("docs/triangle-users.md says what each switch does here"))]

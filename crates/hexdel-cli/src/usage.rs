@@ -48,6 +48,10 @@ pub(crate) fn improved(mut error: Error) -> Error {
         Some(ContextValue::String(text)) => Some(text.clone()),
         _ => None,
     };
+    // That of clap has the option that it would suggest.
+    if let Some(usage) = command().map(|mut command| command.render_usage()) {
+        error.insert(ContextKind::Usage, ContextValue::StyledStr(usage));
+    }
     let Some(unknown) = text(error.get(ContextKind::InvalidArg)) else {
         return error;
     };
@@ -68,15 +72,21 @@ pub(crate) fn improved(mut error: Error) -> Error {
 /// The command that was called.
 pub(crate) fn command() -> Option<Command> {
     let name = std::env::args().nth(1)?;
-    Cli::command().find_subcommand(name).cloned()
+    let mut commands = Cli::command();
+    // Only then commands know their whole names.
+    commands.build();
+    commands.find_subcommand(name).cloned()
 }
 
 /// What means the same in a command.
 fn meant(name: &str, command: &Command) -> Option<String> {
-    let (_, option, usage) = SAME.iter().find(|(names, ..)| names.contains(&name))?;
-    if command.get_arguments().any(|argument| is_same(argument, option, usage)) {
+    let same = SAME.iter().find(|(names, ..)| names.contains(&name));
+    if let Some((_, option, usage)) = same
+        && command.get_arguments().any(|argument| is_same(argument, option, usage))
+    {
         return Some(format!("the same here is '{usage}'"));
     }
+    let option = same.map_or(name, |(_, option, _)| option);
     let ordinal = command.get_positionals().zip(["first", "second"]);
     let (_, place) = ordinal.into_iter().find(|(argument, _)| argument.get_id() == option)?;
     let all: Vec<String> = command.get_positionals().map(|a| a.get_id().as_str().to_uppercase()).collect();

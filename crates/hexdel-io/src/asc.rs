@@ -101,7 +101,8 @@ impl Parser<'_> {
             };
         }
         for word in words {
-            let value = word.parse().map_err(|_| self.bad(line, format!("{word} is no number")))?;
+            let value =
+                word.parse().map_err(|_| self.bad(line, format!("expected a number, found {word}")))?;
             self.values.push(value);
             if self.values.len() > MOST_CELLS {
                 return Err(self.bad(line, "more cells than are supported"));
@@ -111,19 +112,19 @@ impl Parser<'_> {
     }
 
     fn entry(&mut self, name: &str, value: &str, line: u64) -> Result<(), ReadError> {
-        let wrong = || self.bad(line, format!("{value} is no value of {name}"));
-        let number = || value.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
-        let count = || value.parse::<usize>().ok().filter(|n| *n > 0).ok_or_else(wrong);
+        let wrong = |what: &str| self.bad(line, format!("{name} must be {what}, got {value}"));
+        let number = || value.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| wrong("a number"));
+        let positive = || value.parse().ok().filter(|n| *n > 0).ok_or_else(|| wrong("a positive integer"));
         match name.to_ascii_lowercase().as_str() {
-            "ncols" => self.header.columns = Some(count()?),
-            "nrows" => self.header.rows = Some(count()?),
+            "ncols" => self.header.columns = Some(positive()?),
+            "nrows" => self.header.rows = Some(positive()?),
             "xllcorner" => self.header.x = Some((true, number()?)),
             "xllcenter" => self.header.x = Some((false, number()?)),
             "yllcorner" => self.header.y = Some((true, number()?)),
             "yllcenter" => self.header.y = Some((false, number()?)),
             "cellsize" => self.header.cell = Some(number()?),
-            "nodata_value" => self.header.no_data = Some(value.parse().map_err(|_| wrong())?),
-            _ => return Err(self.bad(line, format!("{name} is no entry of a raster's header"))),
+            "nodata_value" => self.header.no_data = Some(value.parse().map_err(|_| wrong("a number"))?),
+            _ => return Err(self.bad(line, format!("unknown entry {name} of the header"))),
         }
         Ok(())
     }
@@ -136,7 +137,7 @@ impl Parser<'_> {
         let (x_is_corner, x) = self.header.x.ok_or_else(|| missing("xllcorner"))?;
         let (y_is_corner, y) = self.header.y.ok_or_else(|| missing("yllcorner"))?;
         if cell <= 0.0 {
-            return Err(self.bad(line, format!("{cell} is no size of a cell")));
+            return Err(self.bad(line, format!("cellsize must be positive, got {cell}")));
         }
         let found = self.values.len();
         if columns.checked_mul(rows) != Some(found) {
@@ -195,14 +196,14 @@ mod tests {
             Err(ReadError::Raster { line, message, .. }) => (line, message),
             other => panic!("{text}: {other:?}"),
         };
-        assert_eq!(of(&format!("{HEADER}1 2\n3 x\n")), (8, "x is no number".into()));
+        assert_eq!(of(&format!("{HEADER}1 2\n3 x\n")), (8, "expected a number, found x".into()));
         assert_eq!(of(&format!("{HEADER}1 2 3")), (7, "3 values, not 2 times 2".into()));
-        assert_eq!(of("ncols 0\n"), (1, "0 is no value of ncols".into()));
+        assert_eq!(of("ncols 0\n"), (1, "ncols must be a positive integer, got 0".into()));
         assert_eq!(of("ncols\n"), (1, "ncols has no value".into()));
         assert_eq!(of("ncols 2 3\n"), (1, "3 is more than a name and a value".into()));
-        assert_eq!(of("colour 2\n"), (1, "colour is no entry of a raster's header".into()));
+        assert_eq!(of("colour 2\n"), (1, "unknown entry colour of the header".into()));
         assert_eq!(of("ncols 1\nnrows 1\n").1, "the header has no cellsize");
         let zero = HEADER.replace("cellsize 4", "cellsize 0");
-        assert_eq!(of(&format!("{zero}1 2 3 4")).1, "0 is no size of a cell");
+        assert_eq!(of(&format!("{zero}1 2 3 4")).1, "cellsize must be positive, got 0");
     }
 }

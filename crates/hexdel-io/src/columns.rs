@@ -7,11 +7,13 @@
 use std::fmt;
 use std::str::FromStr;
 
+use thiserror::Error;
+
 /// A column of a table that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Column {
-    /// By its number, from 1.
+    /// By its number, from 1; no table has a column 0.
     Number(usize),
     /// By its name in the header, in upper or lower case.
     Name(String),
@@ -26,7 +28,7 @@ pub enum Column {
 /// assert_eq!(columns.x, Column::Name("Easting".to_owned()));
 /// assert_eq!(columns.y, Column::Number(3));
 /// assert!("Easting".parse::<Columns>().is_err());
-/// # Ok::<(), String>(())
+/// # Ok::<(), hexdel_io::ColumnsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Columns {
@@ -36,19 +38,41 @@ pub struct Columns {
     pub y: Column,
 }
 
-impl FromStr for Columns {
-    type Err = String;
+/// Why a text names no two columns.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ColumnsError {
+    /// They are not two.
+    #[error("expected the columns of x and y by name or number, like 2,3, got {found:?}")]
+    NotTwo {
+        /// The text.
+        found: String,
+    },
+    /// A number is 0.
+    #[error("columns must be counted from 1, got 0")]
+    Zero,
+    /// Both are the same.
+    #[error("x and y must be different columns, got {column} twice")]
+    Same {
+        /// The column.
+        column: Column,
+    },
+}
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wanted = || "expected the columns of x and y by name or number, like 2,3".to_owned();
-        let (x, y) = text.split_once(',').ok_or_else(wanted)?;
+impl FromStr for Columns {
+    type Err = ColumnsError;
+
+    fn from_str(text: &str) -> Result<Self, ColumnsError> {
+        let not_two = || ColumnsError::NotTwo { found: text.to_owned() };
+        let (x, y) = text.split_once(',').ok_or_else(not_two)?;
         let column = |text: &str| match (text.trim(), text.trim().parse::<usize>()) {
-            ("", _) | (_, Ok(0)) => Err(wanted()),
+            ("", _) => Err(not_two()),
+            (_, Ok(0)) => Err(ColumnsError::Zero),
             (_, Ok(number)) => Ok(Column::Number(number)),
             (name, Err(_)) => Ok(Column::Name(name.to_owned())),
         };
         let columns = Self { x: column(x)?, y: column(y)? };
-        if columns.x == columns.y { Err("x and y are to be the same column".to_owned()) } else { Ok(columns) }
+        if columns.x == columns.y { Err(ColumnsError::Same { column: columns.x }) } else { Ok(columns) }
     }
 }
 
@@ -267,8 +291,16 @@ mod tests {
     fn columns_are_asked_for_by_name_or_number() {
         let columns: Columns = " 2 , Nord ".parse().unwrap();
         assert_eq!(columns, Columns { x: Column::Number(2), y: Column::Name("Nord".to_owned()) });
-        for bad in ["", "2", "0,1", ",2", "1,", "2,2", "a,a"] {
-            assert!(bad.parse::<Columns>().is_err(), "{bad}");
+        for (bad, message) in [
+            ("", "expected the columns of x and y by name or number, like 2,3, got \"\""),
+            ("2", "expected the columns of x and y by name or number, like 2,3, got \"2\""),
+            (",2", "expected the columns of x and y by name or number, like 2,3, got \",2\""),
+            ("1,", "expected the columns of x and y by name or number, like 2,3, got \"1,\""),
+            ("0,1", "columns must be counted from 1, got 0"),
+            ("2,2", "x and y must be different columns, got 2 twice"),
+            ("a,a", "x and y must be different columns, got a twice"),
+        ] {
+            assert_eq!(bad.parse::<Columns>().unwrap_err().to_string(), message);
         }
     }
 }

@@ -499,8 +499,8 @@ pub enum WriteError {
         /// Which do not.
         source: PslgLayoutError,
     },
-    /// The bounds of a picture are no bounds of angles.
-    #[error("{file}: angles from {low} to {high} degrees are no bounds: expected 0 to 60 and 60 to 180")]
+    /// The bounds of a picture must be bounds of angles.
+    #[error("{file}: bounds of angles must be 0 to 60 and 60 to 180 degrees, got {low} and {high}")]
     Bounds {
         /// The file.
         file: String,

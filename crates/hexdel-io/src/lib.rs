@@ -101,7 +101,7 @@ mod write;
 
 pub use asc::{Raster, parse_raster, read_raster};
 pub use colour::Rgb;
-pub use columns::{Column, Columns, TakenColumn, TakenColumns};
+pub use columns::{Column, Columns, ColumnsError, TakenColumn, TakenColumns};
 pub use data::MeshData;
 pub use dual::write_dual;
 pub use error::{ReadError, WriteError};

@@ -11,6 +11,7 @@ use hexdel_geom::{TriMesh, VertexId};
 use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Comments, Fields, Lines};
+use crate::mend::Faults;
 use crate::text::TextWriter;
 use crate::view::MeshView;
 
@@ -43,16 +44,18 @@ pub(crate) fn read_obj(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
     let mut lines = Lines::new(reader, file, Comments::Anywhere);
     let mut mesh = TriMesh::default();
     // Faces may come before their vertices.
-    let mut unresolved = None;
-    while let Some(row) = lines.next_row()? {
+    let (mut unresolved, mut faults) = (None, Faults::default());
+    while let Some(row) = faults.note(lines.next_row())?.flatten() {
         let mut fields = row.fields();
         match fields.text() {
             Some("v") => {
                 let index = mesh.vertices.len() as u64 + 1;
-                mesh.vertices.push(fields.flat_position("point", index)?);
+                mesh.vertices.extend(faults.note(fields.flat_position("point", index))?);
             }
             Some("f") => {
-                let corners = triangle(&mut fields, mesh.vertices.len())?;
+                let Some(corners) = faults.note(triangle(&mut fields, mesh.vertices.len()))? else {
+                    continue;
+                };
                 let largest = corners.iter().max().map_or(0, |v| v.index());
                 if largest >= mesh.vertices.len() {
                     unresolved = unresolved.max(Some((largest, row.line)));
@@ -60,13 +63,16 @@ pub(crate) fn read_obj(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
                 mesh.triangles.push(corners);
             }
             Some(word) if LEFT.contains(&word) => {}
-            word => return Err(row.malformed("a statement of OBJ", word)),
+            word => {
+                faults.note::<()>(Err(row.malformed("a statement of OBJ", word)))?;
+            }
         }
         if mesh.vertices.len().max(mesh.triangles.len()) > MAX_ITEMS {
             let (file, line, limit) = (row.file.to_owned(), row.line, MAX_ITEMS as u64);
             return Err(ReadError::TooMany { file, line, section: "vertices or triangles", limit });
         }
     }
+    faults.take()?;
     match unresolved {
         Some((index, line)) if index >= mesh.vertices.len() => Err(ReadError::IndexOutOfRange {
             file: file.to_owned(),
@@ -142,6 +148,10 @@ mod tests {
             ("f 1 1 2\nv 0 0 0", "f:1: no point 2, there are 1 counted from 1"),
             ("f 1 1 9223372036854775807", "f:1: no point 9223372036854775807, there are 0 counted from 1"),
             ("f 1 1 -9223372036854775808", "f:1: no point -9223372036854775808, there are 0 counted from 1"),
+            (
+                "v 0 x 0\nf 1 1 1\nv 0 y 0\n",
+                "f:1: expected the y coordinate, found \"x\"\nf:3: expected the y coordinate, found \"y\"",
+            ),
             ("curv 0 1", "f:1: expected a statement of OBJ, found \"curv\""),
         ] {
             assert_eq!(read(text).unwrap_err().to_string(), message);

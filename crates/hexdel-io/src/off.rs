@@ -10,6 +10,7 @@ use hexdel_geom::{TriMesh, VertexId};
 use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Comments, Fields, Lines, Row};
+use crate::mend::Faults;
 use crate::text::TextWriter;
 use crate::view::MeshView;
 
@@ -44,18 +45,21 @@ pub(crate) fn read_off(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
     let (plain, [vertices, triangles]) = header(&mut lines)?;
     let mut mesh = TriMesh::default();
     mesh.vertices.reserve(vertices.min(MAX_RESERVE) as usize);
+    let mut faults = Faults::default();
     for index in 0..vertices {
-        let mut fields = row(&mut lines, "vertices", index, vertices)?.fields();
-        mesh.vertices.push(fields.flat_position("point", index)?);
-        if plain {
-            fields.end()?;
-        }
+        let Some(row) = faults.note(row(&mut lines, "vertices", index, vertices))? else { break };
+        let mut fields = row.fields();
+        let vertex = fields.flat_position("point", index);
+        let vertex = vertex.and_then(|vertex| if plain { fields.end().map(|()| vertex) } else { Ok(vertex) });
+        mesh.vertices.extend(faults.note(vertex)?);
     }
     mesh.triangles.reserve(triangles.min(MAX_RESERVE) as usize);
     for index in 0..triangles {
-        let mut fields = row(&mut lines, "faces", index, triangles)?.fields();
-        mesh.triangles.push(triangle(&mut fields, vertices)?);
+        let Some(row) = faults.note(row(&mut lines, "faces", index, triangles))? else { break };
+        let corners = triangle(&mut row.fields(), vertices);
+        mesh.triangles.extend(faults.note(corners)?);
     }
+    faults.take()?;
     match lines.next_row()? {
         None => Ok(MeshData::new(mesh)),
         Some(row) => Err(row.malformed("the end of the file", row.fields().text())),
@@ -174,6 +178,15 @@ mod tests {
             ("OFF\n1 1 0\n0 0 0\n3 0 0 1", "f:4: no point 1, there are 1 counted from 0"),
             ("OFF\n1 1 0\n0 0 0\n3 0 0", "f:4: expected the index of a point, found end of line"),
             ("OFF\n1 0 0\n0 0 0\n3 0 0 0", "f:4: expected the end of the file, found \"3\""),
+            (
+                "OFF\n3 2 0\n0 x 0\n1 0 0\n0 y 0\n3 0 1 7\n3 0 1 8\n",
+                "f:3: expected the y coordinate, found \"x\"\nf:5: expected the y coordinate, found \"y\"",
+            ),
+            (
+                "OFF\n1 2 0\n0 0 0\n3 0 0 7\n3 0 0 8\n",
+                "f:4: no point 7, there are 1 counted from 0\nf:5: no point 8, there are 1 counted from 0",
+            ),
+            ("OFF\n3 0 0\n0 x 0\n", "f:3: expected the y coordinate, found \"x\""),
         ] {
             assert_eq!(read(text).unwrap_err().to_string(), message);
         }

@@ -28,6 +28,10 @@ pub struct PointFile {
     pub columns: Option<TakenColumns>,
     /// The number of the first point: 0, or 1 in a file of Triangle's that counts from 1.
     pub first_number: u32,
+    /// Of a `.poly` file, the line of each hole.
+    pub hole_lines: Vec<u64>,
+    /// Of a `.poly` file, the line of each region.
+    pub region_lines: Vec<u64>,
 }
 
 /// Reads points and graphs, told which columns to take.
@@ -145,9 +149,10 @@ impl PointReader {
                 other => other,
             })
         };
-        let (pslg, range) = triangle::read_poly(reader, name, &mut mends, beside)?;
+        let triangle::Poly { pslg, range, hole_lines, region_lines } =
+            triangle::read_poly(reader, name, &mut mends, beside)?;
         let (warnings, first_number) = (mends.into_warnings(), range.first_number());
-        Ok(PointFile { pslg, warnings, first_number, ..PointFile::default() })
+        Ok(PointFile { pslg, warnings, columns: None, first_number, hole_lines, region_lines })
     }
 }
 

@@ -225,9 +225,10 @@ fn is_header(text: &str, asked: Option<&Columns>) -> bool {
     }
     match asked {
         Some(Columns { x: Column::Number(x), y: Column::Number(y) }) => {
-            [x, y].into_iter().all(|&n| fields.get(n - 1).is_some_and(|field| !is_number(field)))
+            let field = |n: &usize| fields.get(n.checked_sub(1)?);
+            [x, y].into_iter().all(|n| field(n).is_some_and(|field| !is_number(field)))
         }
-        Some(_) => !fields.iter().any(|field| is_number(field)) || by_asked_names(&fields, asked),
+        Some(_) => by_asked_names(&fields, asked),
         None => by_names(&fields).is_ok(),
     }
 }
@@ -250,7 +251,7 @@ fn place(
     row: Row<'_>,
 ) -> Result<usize, ReadError> {
     let found = match (column, names) {
-        (Column::Number(number), _) => Some(number - 1).filter(|&at| at < fields.len()),
+        (Column::Number(number), _) => number.checked_sub(1).filter(|&at| at < fields.len()),
         (Column::Name(name), Some((names, _))) => names
             .iter()
             .position(|n| *n == name)
@@ -446,6 +447,11 @@ mod tests {
         };
         assert_eq!(columns("a,b\n1,2", "a,c"), "t:1: no column c, there are \"a, b\"");
         assert_eq!(columns("a,b\n1,2", "1,3"), "t:1: no column 3, there are \"a, b\"");
+        let zero = Columns { x: Column::Number(0), y: Column::Number(2) };
+        for (text, there) in [("a,b\n1,2", "\"a, b\""), ("1,2\n3,4", "2 columns and no header")] {
+            let error = read_table(text.as_bytes(), "t", Some(&zero)).unwrap_err();
+            assert_eq!(error.to_string(), format!("t:1: no column 0, there are {there}"));
+        }
         assert_eq!(columns("1,2\n3,4", "x,y"), "t:1: no column x, there are 2 columns and no header");
     }
 

@@ -59,13 +59,21 @@ pub(crate) fn read_node(
     Ok((pslg, range))
 }
 
+/// What a `.poly` file holds, with the lines of its holes and regions.
+pub(crate) struct Poly {
+    pub(crate) pslg: Pslg,
+    pub(crate) range: PointRange,
+    pub(crate) hole_lines: Vec<u64>,
+    pub(crate) region_lines: Vec<u64>,
+}
+
 /// Reads a `.poly` file. `points_beside` is asked for the points if it has none.
 pub(crate) fn read_poly(
     reader: impl BufRead,
     file: &str,
     mends: &mut Mends,
     points_beside: impl FnOnce(u64, &mut Mends) -> Result<(Pslg, PointRange), ReadError>,
-) -> Result<(Pslg, PointRange), ReadError> {
+) -> Result<Poly, ReadError> {
     let mut lines = Lines::new(reader, file, Comments::Anywhere);
     let mut pslg = Pslg::default();
     let mut range = point_section(&mut lines, &mut pslg, mends)?;
@@ -73,10 +81,10 @@ pub(crate) fn read_poly(
         (pslg, range) = points_beside(lines.number(), mends)?;
     }
     segment_section(&mut lines, &mut pslg, range, mends)?;
-    hole_section(&mut lines, &mut pslg, mends)?;
-    region_section(&mut lines, &mut pslg, mends)?;
+    let hole_lines = hole_section(&mut lines, &mut pslg, mends)?;
+    let region_lines = region_section(&mut lines, &mut pslg, mends)?;
     end_of_file(&mut lines, "regions")?;
-    Ok((pslg, range))
+    Ok(Poly { pslg, range, hole_lines, region_lines })
 }
 
 /// Reads the triangles of an `.ele` file to the points of its `.node` file. The first
@@ -205,27 +213,32 @@ fn segment_section<R: BufRead>(
     Ok(())
 }
 
+/// Reads the holes; their lines.
 fn hole_section<R: BufRead>(
     lines: &mut Lines<R>,
     pslg: &mut Pslg,
     mends: &mut Mends,
-) -> Result<(), ReadError> {
+) -> Result<Vec<u64>, ReadError> {
     let (section, header) = Section::begin(lines, "holes", u64::MAX, mends)?;
     end(header, mends)?;
+    let mut at = Vec::new();
     section.rows(lines, mends, |fields, index, _| {
         pslg.holes.push(fields.position("hole", index)?);
+        at.push(fields.row.line);
         Ok(())
     })?;
-    Ok(())
+    Ok(at)
 }
 
+/// Reads the regions, if there are any; their lines.
 fn region_section<R: BufRead>(
     lines: &mut Lines<R>,
     pslg: &mut Pslg,
     mends: &mut Mends,
-) -> Result<(), ReadError> {
+) -> Result<Vec<u64>, ReadError> {
+    let mut at = Vec::new();
     let (section, header) = match Section::begin(lines, "regions", u64::MAX, mends) {
-        Err(ReadError::MissingSection { .. }) => return Ok(()),
+        Err(ReadError::MissingSection { .. }) => return Ok(at),
         begun => begun?,
     };
     end(header, mends)?;
@@ -240,9 +253,10 @@ fn region_section<R: BufRead>(
             }
         };
         pslg.regions.push(Region { point, attribute, max_area });
+        at.push(fields.row.line);
         Ok(())
     })?;
-    Ok(())
+    Ok(at)
 }
 
 fn marker_column(header: &mut Fields<'_>) -> Result<bool, ReadError> {

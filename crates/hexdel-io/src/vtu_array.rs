@@ -240,7 +240,7 @@ impl Array {
             Content::Appended(offset) => appended.block(offset, encoding)?,
         };
         if !bytes.len().is_multiple_of(self.kind.bytes) {
-            return Err(format!("{} bytes are no whole number of values", bytes.len()));
+            return Err(format!("the length must be a whole number of values, got {} bytes", bytes.len()));
         }
         Ok(Values::Bytes { bytes, kind: self.kind, big_endian: encoding.big_endian })
     }

@@ -425,7 +425,8 @@ impl Grid {
 
     fn points(&self, points: &Values, data: &mut MeshData) -> Result<(), ReadError> {
         if !points.len().is_multiple_of(3) {
-            return Err(self.fault(format!("{} coordinates of points are no multiple of 3", points.len())));
+            return Err(self
+                .fault(format!("the number of coordinates must be a multiple of 3, got {}", points.len())));
         }
         for i in 0..points.len() / 3 {
             let [x, y, z] = [0, 1, 2].map(|axis| points.get(3 * i + axis));

@@ -44,11 +44,14 @@ fn headers() {
 fn attributes_are_as_many_as_announced() {
     let row = |count: usize| format!("1 2 3000\n0 0.5 1{}\n", " 7".repeat(count));
     let pslg = read_points_from(row(3000).as_bytes(), Node, "f").unwrap();
-    assert_eq!((pslg.attributes_per_point, pslg.attributes(0)), (3000, &[7.0; 3000][..]));
+    assert_eq!((pslg.attributes_per_point, pslg.attributes(0)), (3000, &vec![7.0; 3000][..]));
     assert_error!(Node, row(2999), Malformed, "f:2: expected an attribute, found end of line");
     let lenient = |text: &str| PointReader::new().read_from(text.as_bytes(), Node, "f");
     let filled = lenient("1 2 16\n0 0.5 1 7\n").unwrap();
-    assert_eq!((filled.pslg.attributes(0)[0], filled.pslg.attributes(0)[15], filled.warnings.len()), (7.0, 0.0, 1));
+    assert_eq!(
+        (filled.pslg.attributes(0)[0], filled.pslg.attributes(0)[15], filled.warnings.len()),
+        (7.0, 0.0, 1)
+    );
     for (text, message) in [
         ("1 2 17\n0 0.5 1 7\n", "f:2: expected an attribute, found end of line"),
         // No memory is taken for what a header claims.

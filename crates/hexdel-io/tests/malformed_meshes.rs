@@ -104,7 +104,10 @@ fn vtu_of_all_sorts() {
         (("format=\"ascii\"", "format=\"hex\""), "f:5: unknown format \"hex\" of an array"),
         (("NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""), "f:5: expected points of 3 components"),
         (("0 0 0 1 0 0 0 1 0", "0 0 0 1 0 0 0 one 0"), "f:5: expected a number, found \"one\""),
-        (("0 0 0 1 0 0 0 1 0", "0 0 0 1 0"), "f:11: 5 coordinates of points are no multiple of 3"),
+        (
+            ("0 0 0 1 0 0 0 1 0", "0 0 0 1 0"),
+            "f:11: the number of coordinates must be a multiple of 3, got 5",
+        ),
         (
             ("0 0 0 1 0 0 0 1 0", "0 0 0 1 0 0 0 1 4"),
             "f:11: point 2 at z = 4, out of the plane, cannot be read",
@@ -306,12 +309,16 @@ fn promises_of_vtu_are_refused_with_their_line() {
             all("90 30 43 90", "3", "0"),
             "f:7: expected four bounds of angles as hexdel_bounds, found 90 30 43 90".to_owned(),
         ),
-        (all("30 90 43 90", "4", "0"), "f:7: expected the number of a domain as hexdel_domain, found 4".to_owned()),
+        (
+            all("30 90 43 90", "4", "0"),
+            "f:7: expected the number of a domain as hexdel_domain, found 4".to_owned(),
+        ),
         (all("30 90 43 90", "", "0"), "f:7: expected one number as hexdel_domain, found none".to_owned()),
         (none, "f:4: expected four bounds of angles as hexdel_bounds, found none".to_owned()),
     ] {
         assert_eq!(error(MeshFormat::Vtu, &with(&fields)).to_string(), message, "{fields}");
     }
-    let twice = all("30 90 43 90", "3", "0").replace("</FieldData>", &format!("{}</FieldData>", field("domain", "3")));
+    let twice = all("30 90 43 90", "3", "0")
+        .replace("</FieldData>", &format!("{}</FieldData>", field("domain", "3")));
     assert!(error(MeshFormat::Vtu, &with(&twice)).to_string().contains("that the file has already"));
 }

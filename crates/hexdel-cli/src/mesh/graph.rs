@@ -5,7 +5,7 @@ use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::triangle::Numbered;
-use hexdel::pslg::violations;
+use hexdel::pslg::{Seed, violations};
 use hexdel::{
     AngleBounds, Domain, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod, Warning,
 };
@@ -67,6 +67,16 @@ impl Finished<'_> {
         if self.numbered.is_some() { "" } else { ", see --report" }
     }
 
+    /// The file that a warning is about, and the line if it is known.
+    fn place(&self, warning: &Warning) -> String {
+        let Warning::UnusedSeed(unused) = warning else { return self.file.to_owned() };
+        let line = match unused.seed {
+            Seed::Hole(i) => self.input.hole_lines.get(i as usize),
+            Seed::Region(i) => self.input.region_lines.get(i as usize),
+        };
+        line.map_or_else(|| self.file.to_owned(), |line| format!("{}:{line}", self.file))
+    }
+
     /// Writes the mesh to all files and says what it is like.
     pub(crate) fn write(&self, outputs: &Outputs) -> Outcome {
         let made = self.made;
@@ -105,7 +115,7 @@ impl Finished<'_> {
         let told = |w: &&Warning| !matches!(w, Warning::DividedBorders { .. });
         let warnings: Vec<&Warning> = made.warnings.iter().filter(told).collect();
         for warning in warnings.iter().take(SHOWN) {
-            warn(&format!("{}: {warning}", self.file));
+            warn(&format!("{}: {warning}", self.place(warning)));
         }
         if warnings.len() > SHOWN {
             let more = warnings.len() - SHOWN;

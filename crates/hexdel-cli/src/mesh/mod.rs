@@ -29,7 +29,7 @@ pub(crate) use graph::{Finished, failure, warn_of_repairs};
     mut_arg("size", |arg| arg.hide(true).long("pixels")),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
-Input: .node .poly .csv .tsv .xyz .txt .geojson .wkt .json .ron, - with --format
+Input: .node .poly .csv .tsv .xyz .txt .pts .geojson .wkt .json .ron, - with --format
 Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ron .svg .png
 Example: hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
 )]
@@ -50,9 +50,9 @@ pub(crate) struct Args {
     #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
     /// How hard compact tries: fast, standard or best
-    #[arg(long, value_enum, default_value_t = EffortName::Standard, hide_possible_values = true)]
+    #[arg(long, value_enum, default_value_t, hide_possible_values = true)]
     effort: EffortName,
-    /// Time to optimise; when it is spent, exits with 3 [default: as it takes]
+    /// Time to optimise; then writes a conforming mesh and exits with 3 [default: any]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     budget: Option<Duration>,
     /// Smallest angle allowed [default: the method's; 30 at segments]
@@ -142,29 +142,40 @@ enum MethodName {
     Compact,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum EffortName {
+#[derive(Clone, Copy, Default, ValueEnum)]
+pub(crate) enum EffortName {
     Fast,
+    #[default]
     Standard,
     Best,
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
+impl EffortName {
+    pub(crate) fn effort(self) -> Effort {
+        match self {
+            Self::Fast => Effort::Fast,
+            Self::Standard => Effort::Standard,
+            Self::Best => Effort::Best,
+        }
+    }
+}
+
+pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().and_then(|s| Duration::try_from_secs_f64(s).ok());
-    seconds.ok_or_else(|| "expected a number of seconds".to_owned())
+    seconds.ok_or_else(|| "must be a number of seconds, 0 or more".to_owned())
 }
 
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(number) if f64::is_finite(number) && number > 0.0 => Ok(number),
-        _ => Err("expected a positive number".to_owned()),
+        _ => Err("must be a positive number".to_owned()),
     }
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(number) if f64::is_finite(number) && number >= 0.0 => Ok(number),
-        _ => Err("expected a distance".to_owned()),
+        _ => Err("must be a distance, 0 or more".to_owned()),
     }
 }
 
@@ -252,12 +263,8 @@ impl Args {
     /// The options that points and graphs share.
     fn mesher(&self) -> Mesher {
         let method = self.method();
-        let effort = match self.effort {
-            EffortName::Fast => Effort::Fast,
-            EffortName::Standard => Effort::Standard,
-            EffortName::Best => Effort::Best,
-        };
-        let mut mesher = Mesher::new().method(method).effort(effort).coarsening(!self.no_coarsening);
+        let mut mesher =
+            Mesher::new().method(method).effort(self.effort.effort()).coarsening(!self.no_coarsening);
         if let Some(budget) = self.budget {
             mesher = mesher.budget(budget);
         }

@@ -69,7 +69,7 @@ pub(crate) fn parse(line: &str) -> Result<Option<Command>, String> {
         "counts" => alone(name, &words, Command::Counts)?,
         "certify" => alone(name, &words, Command::Certify)?,
         "quit" => alone(name, &words, Command::Quit)?,
-        _ => return Err(format!("{} is no command; there are {KNOWN}", cut(name))),
+        _ => return Err(format!("unknown command {}, expected one of {KNOWN}", cut(name))),
     };
     Ok(Some(command))
 }
@@ -131,11 +131,12 @@ fn ids(words: &[&str]) -> Result<Vec<u64>, String> {
     if words.is_empty() {
         return Err("expected remove with the numbers of points".to_owned());
     }
-    words.iter().map(|w| w.parse().map_err(|_| format!("{} is no number of a point", cut(w)))).collect()
+    let wrong = |word| format!("the number of a point must be an integer from 0, got {}", cut(word));
+    words.iter().map(|w| w.parse().map_err(|_| wrong(w))).collect()
 }
 
 fn number(word: &str) -> Result<f64, String> {
-    word.parse().map_err(|_| format!("{} is no number", cut(word)))
+    word.parse().map_err(|_| format!("expected a number, got {}", cut(word)))
 }
 
 /// A word of a readable length.
@@ -171,11 +172,11 @@ mod tests {
     #[test]
     fn other_lines_are_refused() {
         for (line, message) in [
-            ("inser 1 2", "inser is no command"),
+            ("inser 1 2", "unknown command inser"),
             ("insert 1", "expected insert with X Y"),
             ("insert", "expected insert with X Y"),
-            ("insert 1 x", "x is no number"),
-            ("remove -1", "-1 is no number of a point"),
+            ("insert 1 x", "expected a number, got x"),
+            ("remove -1", "the number of a point must be an integer from 0, got -1"),
             ("remove", "expected remove"),
             ("domain 0 0", "expected domain X Y RADIUS"),
             ("mesh", "expected mesh FILE"),

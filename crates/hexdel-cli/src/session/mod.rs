@@ -3,6 +3,7 @@
 mod command;
 
 use crate::exit::{Failure, Outcome as Ending, Verdict, print};
+use crate::mesh::{EffortName, seconds};
 use crate::outputs::{Content, Outputs};
 use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
@@ -12,6 +13,7 @@ use hexdel_io::{Columns, MarkedEdge, MeshView, PointFile, PointReader, write_mes
 use serde_json::{Value, json};
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Change a mesh by commands from standard input, answered with lines of JSON
 #[derive(clap::Args)]
@@ -50,6 +52,15 @@ pub(crate) struct Args {
     /// compact, or templates: many triangles [default: compact]
     #[arg(long, value_enum, default_value_t, hide_possible_values = true, hide_default_value = true)]
     method: SessionMethod,
+    /// How hard compact tries: fast, standard or best [default: standard]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    effort: Option<EffortName>,
+    /// Time to optimise in each call that meshes anew [default: all it takes]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    budget: Option<Duration>,
+    /// Threads to use [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
 }
 
 /// The methods that sessions know.
@@ -60,16 +71,46 @@ enum SessionMethod {
     Templates,
 }
 
+impl Args {
+    fn method(&self) -> Method {
+        match self.method {
+            SessionMethod::Compact => Method::Compact,
+            SessionMethod::Templates => Method::Templates,
+        }
+    }
+
+    /// What sessions are begun with.
+    fn mesher(&self) -> Mesher {
+        let mut mesher = Mesher::new().method(self.method()).effort(self.effort.unwrap_or_default().effort());
+        if let Some(budget) = self.budget {
+            mesher = mesher.budget(budget);
+        }
+        if let Some(threads) = self.threads {
+            mesher = mesher.threads(usize::from(threads));
+        }
+        mesher
+    }
+
+    /// An option that is given, if any is, that only sessions of points and graphs have.
+    fn option(&self) -> Option<&'static str> {
+        let given = [
+            ("--effort", self.effort.is_some()),
+            ("--budget", self.budget.is_some()),
+            ("--threads", self.threads.is_some()),
+        ];
+        given.into_iter().find(|(_, given)| *given).map(|(option, _)| option)
+    }
+}
+
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Ending {
     let mut talk = Talk {
         session: None,
         brief: args.brief,
         columns: args.columns.clone(),
-        method: match args.method {
-            SessionMethod::Compact => Method::Compact,
-            SessionMethod::Templates => Method::Templates,
-        },
+        method: args.method(),
+        mesher: args.mesher(),
+        option: args.option(),
         inputs: Vec::new(),
     };
     let mut input = io::stdin().lock();
@@ -112,6 +153,9 @@ struct Talk {
     brief: bool,
     columns: Option<Columns>,
     method: Method,
+    mesher: Mesher,
+    /// An option that has no effect where a session begins without points, or is loaded.
+    option: Option<&'static str>,
     /// Points that were read, which no mesh may replace.
     inputs: Vec<PathBuf>,
 }
@@ -122,8 +166,13 @@ impl Talk {
             Command::Open(path) => {
                 let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
                 self.inputs.push(path);
-                let answer = self.begin(AnySession::new(&file.pslg, &Mesher::new().method(self.method))?)?;
+                let answer = self.begin(AnySession::new(&file.pslg, &self.mesher)?)?;
                 Ok(with_file(answer, &file))
+            }
+            Command::Domain(..) | Command::Load(_) if self.option.is_some() => {
+                let option = self.option.unwrap_or_default();
+                Err(format!("{option} has no effect: it is for sessions that begin with open or insert")
+                    .into())
             }
             Command::Domain(centre, radius) => self.begin(AnySession::empty(centre, radius, self.method)?),
             Command::Load(path) => {
@@ -143,7 +192,7 @@ impl Talk {
 
     /// Begins with points, in a domain that follows them.
     fn begin_with(&mut self, points: &[DVec2]) -> Result<Value, Refusal> {
-        let (session, outcome) = AnySession::begin(points, &Mesher::new().method(self.method))?;
+        let (session, outcome) = AnySession::begin(points, &self.mesher)?;
         let answer = changed_answer(&session, &outcome, self.brief);
         self.session = Some(session);
         Ok(answer)

@@ -86,6 +86,19 @@ fn a_fan_at_a_narrow_corner_passes_the_check() {
     assert_eq!(bench.run("check m.ele --input apart.poly").code, 1);
 }
 
+/// Five points over a kilometre with a noise of centimetres, a hull that is a hair: what time
+/// there is leaves a mesh of all points.
+#[test]
+fn a_hull_like_a_hair_keeps_its_budget() {
+    let bench = Bench::new();
+    let input = fixture("tables/track5_cm.csv");
+    let run = bench.run(&format!("mesh {input} -q -o m.ele --domain hull --budget 0.5"));
+    assert_eq!(run.code, 3, "{}", run.err);
+    assert!(
+        bench.run(&format!("check m.ele --input {input}")).out.contains("5 of 5 input points are vertices")
+    );
+}
+
 #[test]
 fn a_budget_that_is_spent_leaves_a_mesh_with_all_segments() {
     let bench = Bench::new();
@@ -110,7 +123,7 @@ fn areas_are_limited() {
     assert!(triangles("--max-area 0.01") > 4 * triangles(""));
     let points = fixture("points/two_points.node");
     bench.run(&format!("mesh {points} -q --max-area 0.01 -o m.ele")).fine();
-    bench.run(&format!("mesh {input} -o m.ele --max-area 0")).refused("expected a positive number");
+    bench.run(&format!("mesh {input} -o m.ele --max-area 0")).refused("must be a positive number");
 }
 
 #[test]
@@ -128,7 +141,7 @@ fn faults_of_graphs_are_named_and_repaired_if_asked_for() {
         bench.run(&format!("check m.ele --input {crossing}")).fine();
         bench.run(&format!("mesh {} -q -o m.ele {repair}", graph("needle"))).fine();
     }
-    bench.run(&format!("mesh {crossing} -o m.ele --repair=-1")).refused("expected a distance");
+    bench.run(&format!("mesh {crossing} -o m.ele --repair=-1")).refused("must be a distance, 0 or more");
     bench.run(&format!("mesh {crossing} -o m.ele --method simple")).refused("is for points");
     bench.run(&format!("mesh {crossing} -o m.ele --domain-radius 9")).refused("is for points");
 }

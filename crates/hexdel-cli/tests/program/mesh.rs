@@ -160,7 +160,7 @@ fn bad_options_are_refused() {
     let bench = Bench::new();
     bench.file("p.txt", "0 0\n1 0\n");
     for options in ["--domain-radius 0", "--domain-radius -1", "--domain-radius NaN", "--domain-radius inf"] {
-        bench.run(&format!("mesh p.txt -o a.ele {options}")).refused("expected a positive number");
+        bench.run(&format!("mesh p.txt -o a.ele {options}")).refused("must be a positive number");
     }
     bench
         .run("mesh p.txt -o a.ele --domain-radius 1e-3")
@@ -242,7 +242,7 @@ fn angles_may_be_asked_for() {
         ("--method templates --min-angle 50", 2, "more than the method keeps"),
         ("--min-angle 70", 2, "no triangle has all angles"),
         ("--max-angle -1", 2, "no triangle has all angles"),
-        ("--method compact --budget -1", 2, "expected a number of seconds"),
+        ("--method compact --budget -1", 2, "must be a number of seconds, 0 or more"),
         ("--method compact --effort none", 2, "possible values"),
         ("--min-angle 51.5", 2, "the smallest may be asked to be 51.4 at most"),
         ("--max-angle 71", 2, "the largest 72 at least"),

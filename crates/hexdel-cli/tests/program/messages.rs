@@ -165,6 +165,9 @@ fn options_that_there_are_not_lead_to_those_that_mean_the_same() {
         ("mesh p.txt -o m.ele --area 1", "the same here is '--max-area A'"),
         ("mesh p.txt --to m.ele", "the same here is '-o FILE'"),
         ("convert p.txt --to csv", "the output is the second argument: 'hexdel convert INPUT OUTPUT'"),
+        ("convert p.txt --output csv", "the output is the second argument: 'hexdel convert INPUT OUTPUT'"),
+        ("mesh --input p.txt -o m.ele", "the input is the first argument: 'hexdel mesh INPUT'"),
+        ("check --mesh m.ele", "the mesh is the first argument: 'hexdel check MESH'"),
         ("mesh p.txt -o m.ele --angle 20", "the same here is '--min-angle DEG'"),
         ("mesh p.txt -o m.ele --tol 20", "the same here is '--repair=TOL'"),
         ("mesh p.txt -o m.ele --hull", "the same here is '--domain hexagon, hull, box or inside'"),
@@ -177,10 +180,78 @@ fn options_that_there_are_not_lead_to_those_that_mean_the_same() {
     for (arguments, wrong) in [
         ("mesh p.txt -o m.ele --area 1", "repair"),
         ("mesh p.txt --to m.ele", "histogram"),
+        ("plot m.ele --to m.svg", "histogram"),
+        ("plot m.ele -o m.svg --length 2", "size"),
         ("mesh p.txt -o m.ele --frobnicate", "tip:"),
     ] {
         let run = bench.run(arguments);
         assert!(run.code == 2 && !run.err.contains(wrong), "{arguments}: {}", run.err);
+    }
+}
+
+/// By the line of the file, whatever the numbers in it are.
+#[test]
+fn unused_holes_and_regions_are_named_by_their_line() {
+    let bench = Bench::new();
+    bench.file(
+        "a.poly",
+        "# a square\n4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n\n# holes\n2\n1 5 5\n2 0.5 0\n1\n1 7 7 3\n",
+    );
+    for command in ["mesh a.poly -q -o m.ele", "triangle -QA a.poly"] {
+        let run = bench.run(command);
+        assert_eq!(run.code, 0);
+        for warning in [
+            "warning: a.poly:15: hole 0 at (5, 5) is not used: it lies outside of the domain\n",
+            "warning: a.poly:16: hole 1 at (0.5, 0) is not used: it lies on segment 0\n",
+            "warning: a.poly:18: region 0 at (7, 7) is not used: it lies outside of the domain\n",
+        ] {
+            assert!(run.err.contains(warning), "{command}: {}", run.err);
+        }
+    }
+}
+
+/// What is not GeoJSON, or not quite, with the place of the fault.
+#[test]
+fn geojson_that_is_none_is_refused_with_its_place() {
+    let bench = Bench::new();
+    for (name, place, words) in [
+        ("esri", ":1:173", "missing field `type`"),
+        ("nan", ":1:50", "expected value"),
+        ("ndjson", ":2:1", "trailing characters"),
+        ("rs", ":1:1", "expected value"),
+        ("str", ":1:41", "invalid type: string \"0\", expected a coordinate"),
+        ("topo", ":1:19", "unknown variant `Topology`, expected one of `Point`"),
+        ("upper", ":1:18", "unknown variant `POLYGON`, expected one of `Point`"),
+        ("wktname", ":1:1", "expected value"),
+        ("xnull", ":1:45", "invalid type: null, expected f64"),
+        ("nullonly", "", "the input has no points"),
+        ("lines_open", "", "no part of the plane is enclosed by segments"),
+        ("bowtie_r", "", "segments 0 and 2 cross at (2, 1.5)"),
+        ("sliveroverlap_r", "", "more than 50000000 triangles are needed"),
+    ] {
+        let file = fixture(&format!("polygons/refused/{name}.geojson"));
+        bench.run(&format!("mesh {file} -o m.ele")).refused(&format!("{name}.geojson{place}: {words}"));
+        assert!(bench.names().is_empty());
+    }
+}
+
+/// Points with and without heights, a spike, borders that meet in one point more or not quite,
+/// millimetres far from the origin.
+#[test]
+fn other_geojson_is_meshed_as_it_is() {
+    let bench = Bench::new();
+    for (name, warnings) in [
+        ("point1", 0),
+        ("pointz", 0),
+        ("spike_r", 0),
+        ("slivergap_r", 0),
+        ("adj_tjunction_r", 3),
+        ("millimetres_3857", 0),
+    ] {
+        let file = fixture(&format!("polygons/{name}.geojson"));
+        let run = bench.run(&format!("mesh {file} -q -o m.ele"));
+        assert_eq!((run.code, run.err.lines().count()), (0, warnings), "{name}: {}", run.err);
+        assert_eq!(bench.run(&format!("check m.ele --input {file}")).code, 0, "{name}");
     }
 }
 

@@ -69,7 +69,7 @@ fn streams_without_a_format_are_refused() {
         ("mesh - -o a.ele", "standard input has no extension"),
         ("mesh p.csv -o -", "standard output has no extension"),
         ("mesh - -o a.ele --format stl", "possible values"),
-        ("mesh - -o a.ele --format obj", "obj: no format of points"),
+        ("mesh - -o a.ele --format obj", "obj is not a format of points"),
         ("check -", "standard input has no extension"),
         ("check - --format svg", ""),
         ("generate uniform 5 -o -", "standard output has no extension"),
