@@ -52,7 +52,7 @@ pub(crate) struct Args {
     /// How hard compact tries: fast, standard or best
     #[arg(long, value_enum, default_value_t, hide_possible_values = true)]
     effort: EffortName,
-    /// Time to optimise; then writes a conforming mesh and exits with 3 [default: any]
+    /// Time to optimise; spent, a conforming mesh is written, exit status 3
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     budget: Option<Duration>,
     /// Smallest angle allowed [default: the method's; 30 at segments]

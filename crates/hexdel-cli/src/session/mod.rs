@@ -21,23 +21,20 @@ use std::time::Duration;
     override_usage = "hexdel session [OPTIONS] [FILE TO OPEN]",
     after_help = "\
     Commands:\n  \
-    open FILE                    begin with the points of a file, or its graph\n  \
+    open FILE, load FILE         begin with the points of a file, or its graph; a saved session\n  \
     domain X Y RADIUS            begin with an empty hexagon\n  \
-    load FILE                    go on with a saved session\n  \
     insert X Y [X Y ..]          put points in, all or none; first of all, the domain follows\n  \
-    insert-file FILE             the same with the points of a file\n  \
+    insert-file FILE             .. the points of a file\n  \
     remove N [N ..]              take points out, by the numbers insert gave\n  \
     size H | none                the longest edges wanted, everywhere\n  \
-    size box X Y X Y H           .. in a box (also: polygon H X Y .., point X Y H)\n  \
-    size file FILE               .. of a raster (.asc) or of points with sizes\n  \
+    size box X Y X Y H           .. in a box (also: polygon H X Y .., point X Y H, file FILE)\n  \
     size gradation G             growth per distance of all that follows\n  \
     refine X Y X Y K             halve the edges in a box K times\n  \
     points, counts, certify      what there is\n  \
     mesh FILE, save FILE         write the mesh; the session, to be loaded\n  \
     grow, undo, quit             double the domain; take the last change back; end\n\n\
-    Answers have \"ok\", and what changed or the \"error\", which changes nothing; exits with 2 then.\n\n\
-    Example:\n  \
-    printf 'insert .1 .2 .3 .1\\ninsert 2 1\\nmesh m.vtu\\n' | hexdel session"
+    Answers have \"ok\", and what changed or the \"error\", which changes nothing; exits with 2 then.\n\
+    Example: printf 'insert .1 .2 .3 .1\\ninsert 2 1\\nmesh m.vtu\\n' | hexdel session"
 )]
 pub(crate) struct Args {
     /// The file to begin with, as by `open`

@@ -42,6 +42,34 @@ fn each_command_has_an_answer() {
     assert!(told.iter().sum::<u64>() > 0);
 }
 
+/// The options of meshing are those of the first mesh; where there is none they are refused.
+#[test]
+fn effort_budget_and_threads_are_those_of_sessions_too() {
+    let bench = Bench::new();
+    let points = (0..40).map(|i| format!("{} {}\n", i * i % 41, i * 7 % 43)).collect::<String>();
+    bench.file("p.xyz", points);
+    let triangles = |options: &str| {
+        let (answers, code) =
+            talk(&bench, &format!("session --brief {options} p.xyz"), "certify\nsave s.ron\n");
+        assert_eq!((code, &answers[1]["holds"]), (0, &true.into()), "{options}: {answers:?}");
+        answers[0]["triangles"].as_u64().unwrap()
+    };
+    let [fast, best] = ["--effort fast --threads 1", "--effort best --threads 2"].map(triangles);
+    assert!(best < fast, "{best} {fast}");
+    assert!(triangles("--budget 0") > best);
+    let option =
+        |name: &str| format!("{name} has no effect: it is for sessions that begin with open or insert");
+    for (options, name) in
+        [("--effort fast", "--effort"), ("--budget 3", "--budget"), ("--threads 2", "--threads")]
+    {
+        let (answers, code) = talk(&bench, &format!("session {options}"), "domain 0 0 1\nload s.ron\n");
+        assert_eq!(code, 2);
+        assert!(answers.iter().all(|a| a["error"] == option(name)), "{answers:?}");
+    }
+    let run = bench.run("session --budget -1");
+    assert!(run.code == 2 && run.err.contains("must be a number of seconds, 0 or more"), "{}", run.err);
+}
+
 #[test]
 fn a_graph_is_opened_with_its_segments() {
     let bench = Bench::new();
