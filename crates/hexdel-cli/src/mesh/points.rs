@@ -1,11 +1,11 @@
 //! Points in a hexagon.
 
-use super::{Args, Report, columns_line, limited, warn_ignored, write};
+use super::{Args, OverlapsName, Report, columns_line, limited, warn_ignored, write};
 use crate::exit::{Outcome, Verdict};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
-use hexdel::{Certificate, Size, Triangulation};
+use hexdel::{Certificate, Overlaps, Size, Triangulation};
 use hexdel_io::{ColourBy, MeshView, Overlay, PointFile, Promised, PromisedDomain};
 use std::fmt::Write as _;
 
@@ -17,9 +17,12 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     if args.min_angle.is_some() || args.max_angle.is_some() {
         mesher = mesher.bounds(args.bounds(args.method().bounds())?);
     }
+    // Errors that say so.
     if let Some(way) = args.pslg {
-        // An error that says so.
         mesher = mesher.segment_method(way.method());
+    }
+    if args.overlaps == OverlapsName::Refuse {
+        mesher = mesher.overlaps(Overlaps::Refuse);
     }
     let mut size = args.sizing()?;
     if let Some(area) = args.max_area {

@@ -58,6 +58,8 @@ fn options_without_effect_are_refused() {
         bench.run(arguments).refused(&format!("{option} has no effect: {words}"));
         assert_eq!(bench.names(), before, "{arguments}");
     }
+    let run = bench.run("mesh p.csv -o k.ele --overlaps refuse");
+    run.refused("a way with overlaps is for graphs, not for points");
     bench.run("generate grid 5 -o k.csv --columns x,y").refused("unexpected argument '--columns'");
     bench.run("mesh p.csv -q -o k.svg --histogram --pixels 100").fine();
 }
