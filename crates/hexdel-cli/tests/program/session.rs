@@ -46,7 +46,7 @@ fn each_command_has_an_answer() {
 #[test]
 fn effort_budget_and_threads_are_those_of_sessions_too() {
     let bench = Bench::new();
-    let points = (0..40).map(|i| format!("{} {}\n", i * i % 41, i * 7 % 43)).collect::<String>();
+    let points = (0..40).map(|i| format!("{} {}\n", i * i % 41, i * 7 % 43)).collect::<Vec<_>>().concat();
     bench.file("p.xyz", points);
     let triangles = |options: &str| {
         let (answers, code) =
