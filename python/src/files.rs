@@ -69,11 +69,13 @@ pub(crate) fn read_graph(
         .transpose()?;
     let read = aside(py, move || io::PointReader::new().columns(columns).read(&path))?;
     let file = read.map_err(|error| errors::of_reading(py, &error))?;
-    let warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
+    let mut warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
     let mut graph = file.pslg;
     if !graph.polygons.is_empty() {
         let prepared = aside(py, move || hexdel::Mesher::new().prepared_pslg(&graph))?;
-        graph = prepared.map_err(|error| errors::of_mesh(py, &error))?;
+        let prepared = prepared.map_err(|error| errors::of_mesh(py, &error))?;
+        warnings.extend(prepared.warnings.iter().map(ToString::to_string));
+        graph = prepared.graph;
     }
     let dict = graph_out(py, graph)?;
     dict.set_item("warnings", warnings)?;

@@ -2,6 +2,7 @@
 
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::input::{is_stream, names, no_table, refuse_columns, warn_of};
+use crate::mesh::{failure, warn_of_repairs, warn_of_warnings};
 use crate::outputs::Outputs;
 use hexdel::Mesher;
 use hexdel::geom::Pslg;
@@ -221,8 +222,10 @@ fn seeded(content: Content, output: &str, input: &Path) -> Result<Content, Failu
         {
             let file = name(input, "input");
             let prepared = Mesher::new().prepared_pslg(&points);
-            let failure = |source| Failure::Mesh { file, source: Box::new(source), more: String::new() };
-            Ok(Content::Points(prepared.map_err(failure)?))
+            let prepared = prepared.map_err(|source| failure(&file, source, &points))?;
+            warn_of_repairs(prepared.repairs.as_ref(), &file);
+            warn_of_warnings(&prepared.warnings, &file, |_| file.clone(), "");
+            Ok(Content::Points(prepared.graph))
         }
         content => Ok(content),
     }

@@ -68,6 +68,7 @@ pub use hexdel_pslg as pslg;
 pub use hexdel_refine as refine;
 
 pub use error::Error;
+pub use graph::prepare::PreparedPslg;
 pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry, WarningEntry};
 pub use graph::result::PslgTriangulation;
 pub use graph::warning::Warning;

@@ -7,7 +7,9 @@ mod common;
 
 use common::{Copy, Tally, refused};
 use hexdel::geom::{Region, point_on_segment};
-use hexdel::{DVec2, Domain, Mesher, Outcome, PointId, Pslg, Session, SessionError, SessionMesh, Size};
+use hexdel::{
+    AnySession, DVec2, Domain, Mesher, Outcome, PointId, Pslg, Session, SessionError, SessionMesh, Size,
+};
 use proptest::prelude::*;
 
 fn fixture(name: &str) -> Pslg {
@@ -342,4 +344,35 @@ fn texts_that_are_no_sessions_are_refused() {
             check(&session);
         }
     }
+}
+
+/// A box or hexagon is not meshed anew, and that is what is said.
+#[test]
+fn what_is_not_meshed_anew_is_refused_as_such() {
+    for domain in [Domain::Box, Domain::Hexagon] {
+        let mut session = Session::with_segments(&fixture("narrow"), &Mesher::new().domain(domain)).unwrap();
+        // In a fan, whose triangles are as they are.
+        let error = refused(&mut session, |s| s.insert(DVec2::new(6.9, 3.0)));
+        assert!(matches!(error, SessionError::NotForSessions { .. }), "{domain:?}: {error}");
+        check(&session);
+    }
+}
+
+/// What the mesh of a graph is warned of, its session is.
+#[test]
+fn sessions_have_the_warnings_and_repairs_of_the_mesh() {
+    let mut graph = plate();
+    graph.segments.push([1, 4]);
+    graph.segment_markers.push(0);
+    graph.holes = vec![DVec2::new(9.0, 9.0)];
+    graph.regions.push(Region { point: DVec2::new(2.0, 4.0), attribute: 3.0, max_area: None });
+    let made = Mesher::new().triangulate_pslg(&graph).unwrap();
+    assert_eq!((made.warnings.len(), made.repairs.as_ref().unwrap().repairs.len()), (2, 1));
+    let any = AnySession::new(&graph, &Mesher::new()).unwrap();
+    assert_eq!((any.warnings(), any.repairs()), (&made.warnings[..], made.repairs.as_ref()));
+    let mut session = Session::with_segments(&graph, &Mesher::new()).unwrap();
+    session.renew().unwrap();
+    assert_eq!((session.warnings(), session.repairs()), (&made.warnings[..], made.repairs.as_ref()));
+    let sized = Mesher::new().size(Size::constant(0.3).unwrap());
+    assert_eq!(Session::with_segments(&graph, &sized).unwrap().warnings(), made.warnings);
 }

@@ -34,7 +34,7 @@ impl OfGraph {
     ) -> Self {
         // Of polygons the holes and regions that meshes are made of.
         let prepared = Some(graph).filter(|g| !g.polygons.is_empty());
-        let prepared = prepared.and_then(|graph| Mesher::new().prepared_pslg(graph).ok());
+        let prepared = prepared.and_then(|graph| Mesher::new().prepared_pslg(graph).ok()).map(|p| p.graph);
         // Places that are merged would have other numbers.
         let prepared = prepared.filter(|p| p.points.starts_with(&graph.points));
         let graph = prepared.as_ref().unwrap_or(graph);

@@ -5,9 +5,10 @@ use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::triangle::Numbered;
-use hexdel::pslg::{Seed, violations};
+use hexdel::pslg::{RepairReport, Seed, violations};
 use hexdel::{
-    AngleBounds, Domain, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, SegmentMethod, Warning,
+    AngleBounds, Domain, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, RepairEntry, SegmentMethod,
+    Warning,
 };
 use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile, Promised, PromisedDomain};
 use std::fmt::{Display, Write as _};
@@ -27,7 +28,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome 
     let file = args.input.display().to_string();
     let made = made.map_err(|source| failure(&file, source, &input.pslg))?;
     if args.repair.is_none() {
-        warn_of_repairs(&made, &file);
+        warn_of_repairs(made.repairs.as_ref(), &file);
     }
     let finished = Finished {
         made: &made,
@@ -111,16 +112,7 @@ impl Finished<'_> {
         if !self.quiet {
             outputs.tell(&self.summary(&report))?;
         }
-        // Divided borders are among the repairs.
-        let told = |w: &&Warning| !matches!(w, Warning::DividedBorders { .. });
-        let warnings: Vec<&Warning> = made.warnings.iter().filter(told).collect();
-        for warning in warnings.iter().take(SHOWN) {
-            warn(&format!("{}: {warning}", self.place(warning)));
-        }
-        if warnings.len() > SHOWN {
-            let more = warnings.len() - SHOWN;
-            warn(&format!("{}: {more} more{}", self.file, self.elsewhere()));
-        }
+        warn_of_warnings(&made.warnings, self.file, |warning| self.place(warning), self.elsewhere());
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));
         }
@@ -253,13 +245,29 @@ pub(crate) fn failure(file: &str, source: hexdel::Error, input: &Pslg) -> Failur
 }
 
 /// Warns of what was done to a graph without being asked for.
-pub(crate) fn warn_of_repairs(made: &PslgTriangulation, file: &str) {
-    let repairs = made.report().repairs;
-    for repair in repairs.iter().take(SHOWN) {
-        warn(&format!("{file}: {repair}"));
-    }
-    if repairs.len() > SHOWN {
-        warn(&format!("{file}: and {} more of this kind", repairs.len() - SHOWN));
+pub(crate) fn warn_of_repairs(repairs: Option<&RepairReport>, file: &str) {
+    let repairs = repairs.map_or(&[][..], |report| &report.repairs);
+    warn_of_each(repairs.iter().map(|repair| format!("{file}: {}", RepairEntry::new(repair))), file, "");
+}
+
+/// Warns of what is not used of a graph, or could have been meant otherwise, with its place in
+/// the file, and where more is to be found.
+pub(crate) fn warn_of_warnings(
+    warnings: &[Warning],
+    file: &str,
+    place: impl Fn(&Warning) -> String,
+    elsewhere: &str,
+) {
+    // Divided borders are among the repairs.
+    let told = warnings.iter().filter(|w| !matches!(w, Warning::DividedBorders { .. }));
+    warn_of_each(told.map(|warning| format!("{}: {warning}", place(warning))), file, elsewhere);
+}
+
+fn warn_of_each(all: impl Iterator<Item = String>, file: &str, elsewhere: &str) {
+    let all: Vec<String> = all.collect();
+    all.iter().take(SHOWN).for_each(|text| warn(text));
+    if all.len() > SHOWN {
+        warn(&format!("{file}: {} more of this kind{elsewhere}", all.len() - SHOWN));
     }
 }
 

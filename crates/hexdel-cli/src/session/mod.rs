@@ -8,7 +8,7 @@ use crate::outputs::{Content, Outputs};
 use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
 use hexdel::optimize::live::Delta;
-use hexdel::{AnySession, DVec2, Mesher, Method, Outcome, PointId, Size};
+use hexdel::{AnySession, DVec2, Mesher, Method, Outcome, PointId, Pslg, RepairEntry, Size};
 use hexdel_io::{Columns, MarkedEdge, MeshView, PointFile, PointReader, write_mesh};
 use serde_json::{Value, json};
 use std::io::{self, BufRead};
@@ -163,8 +163,15 @@ impl Talk {
             Command::Open(path) => {
                 let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
                 self.inputs.push(path);
-                let answer = self.begin(AnySession::new(&file.pslg, &self.mesher)?)?;
-                Ok(with_file(answer, &file))
+                let session = AnySession::new(&file.pslg, &self.mesher)?;
+                let more = if file.pslg.segments.is_empty() { unused(&file.pslg) } else { told(&session) };
+                let repairs = session.repairs().map_or(&[][..], |report| &report.repairs);
+                let repairs: Vec<String> = repairs.iter().map(|r| RepairEntry::new(r).to_string()).collect();
+                let mut answer = with_file(self.begin(session)?, &file, more);
+                if !repairs.is_empty() {
+                    answer["repairs"] = repairs.into();
+                }
+                Ok(answer)
             }
             Command::Domain(..) | Command::Load(_) if self.option.is_some() => {
                 let option = self.option.unwrap_or_default();
@@ -181,7 +188,7 @@ impl Talk {
             Command::InsertFile(path) if self.session.is_none() => {
                 let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
                 self.inputs.push(path);
-                Ok(with_file(self.begin_with(&file.pslg.points)?, &file))
+                Ok(with_file(self.begin_with(&file.pslg.points)?, &file, unused(&file.pslg)))
             }
             other => self.answer_in_session(other),
         }
@@ -210,7 +217,7 @@ impl Talk {
                 let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
                 self.inputs.push(path);
                 let outcome = session.insert_all(&file.pslg.points)?;
-                return Ok(with_file(changed_answer(session, &outcome, brief), &file));
+                return Ok(with_file(changed_answer(session, &outcome, brief), &file, unused(&file.pslg)));
             }
             Command::Remove(ids) => session.remove(&ids.into_iter().map(PointId).collect::<Vec<_>>())?,
             Command::Size(size) => {
@@ -248,15 +255,38 @@ fn changed_answer(session: &AnySession, outcome: &Outcome, brief: bool) -> Value
     answer
 }
 
-/// With what was found out about a file that was read.
-fn with_file(mut answer: Value, file: &PointFile) -> Value {
+/// With what was found out about a file that was read, and more of it.
+fn with_file(mut answer: Value, file: &PointFile, more: Vec<String>) -> Value {
     if let Some(columns) = &file.columns {
         answer["columns"] = columns.to_string().into();
     }
-    if !file.warnings.is_empty() {
-        answer["warnings"] = file.warnings.iter().map(ToString::to_string).collect();
+    let warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).chain(more).collect();
+    if !warnings.is_empty() {
+        answer["warnings"] = warnings.into();
     }
     answer
+}
+
+/// What was to be said of a graph.
+fn told(session: &AnySession) -> Vec<String> {
+    session.warnings().iter().map(ToString::to_string).collect()
+}
+
+/// What is not used of a file of which points alone are.
+fn unused(graph: &Pslg) -> Vec<String> {
+    let parts = [
+        ("segments", graph.segments.len()),
+        ("holes", graph.holes.len()),
+        ("regions", graph.regions.len()),
+        ("polygons", graph.polygons.len()),
+    ];
+    let parts: Vec<String> =
+        parts.iter().filter(|p| p.1 > 0).map(|(what, count)| format!("{count} {what}")).collect();
+    if parts.is_empty() {
+        Vec::new()
+    } else {
+        vec![format!("points alone are used, not {}", parts.join(", "))]
+    }
 }
 
 fn counts(session: &AnySession) -> Value {

@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
     progress.finish();
     let file = names.input.display().to_string();
     let made = made.map_err(|source| failure(&file, source, &graph))?;
-    warn_of_repairs(&made, &file);
+    warn_of_repairs(made.repairs.as_ref(), &file);
     let first_number = if switches.from_zero { 0 } else { input.first_number };
     let numbered = Numbered::new(&made, &input, switches.without_unused, first_number);
     let finished = Finished {

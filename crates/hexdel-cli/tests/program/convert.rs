@@ -122,3 +122,25 @@ fn tables_are_what_their_names_say_and_losses_are_told() {
     bench.run("convert m.obj m.ele --format node").fine();
     assert!(bench.read("m.node").starts_with(b"3 2 0 0\n"));
 }
+
+/// What a mesh of a map is warned of, its conversion to a format without polygons is.
+#[test]
+fn conversion_warns_of_what_meshing_warns_of() {
+    let bench = Bench::new();
+    let square = |x: f64, y: f64, side: f64, attribute: u8| {
+        let [a, b] = [x + side, y + side];
+        format!(
+            r#"{{"type": "Feature", "properties": {{"attribute": {attribute}}}, "geometry": {{"type": "Polygon",
+            "coordinates": [[[{x}, {y}], [{a}, {y}], [{a}, {b}], [{x}, {b}], [{x}, {y}]]]}}}}"#
+        )
+    };
+    let two = [square(0.0, 0.0, 4.0, 1), square(2.0, 2.0, 4.0, 2)].join(",");
+    bench.file("m.geojson", &format!(r#"{{"type": "FeatureCollection", "features": [{two}]}}"#));
+    let warnings =
+        |err: &str| err.lines().filter(|l| l.starts_with("warning: m.geojson")).map(str::to_owned).collect();
+    let mesh = bench.run("mesh m.geojson --quiet -o m.vtu");
+    let convert = bench.run("convert m.geojson m.poly");
+    let [expected, found]: [Vec<String>; 2] = [warnings(&mesh.err), warnings(&convert.err)];
+    assert!(expected.len() >= 3 && expected.iter().any(|l| l.contains("overlap")), "{}", mesh.err);
+    assert_eq!((convert.code, found), (0, expected));
+}

@@ -86,6 +86,24 @@ fn a_graph_is_opened_with_its_segments() {
     assert_eq!((answers[0]["ok"] == true, answers[2]["ok"] == true, code), (false, true, 2), "{answers:?}");
 }
 
+/// Holes that are not used, segments that are there twice, and segments where points are asked for.
+#[test]
+fn what_is_not_used_of_a_file_is_said() {
+    let bench = Bench::new();
+    bench.file("s.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n4 0\n1 1 2\n2 2 3\n3 3 1\n4 2 1\n1\n1 7 7\n");
+    bench.file("h.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n0 0\n1\n1 7 7\n");
+    let commands = "open s.poly\nopen h.poly\ndomain 0 0 2\ninsert-file s.poly\n";
+    let (answers, code) = talk(&bench, "session --brief", commands);
+    assert_eq!((answers.len(), code), (4, 0), "{answers:?}");
+    let told = |i: usize, of: &str| {
+        answers[i][of].as_array().unwrap().iter().map(|t| t.as_str().unwrap()).collect::<Vec<_>>()
+    };
+    assert_eq!(told(0, "warnings"), ["hole 0 at (7, 7) is not used: it lies outside of the domain"]);
+    assert_eq!(told(0, "repairs"), ["segments 0 and 3 had a part in common at (1, 0)"]);
+    assert_eq!(told(1, "warnings"), ["points alone are used, not 1 holes"]);
+    assert_eq!(told(3, "warnings"), ["points alone are used, not 4 segments, 1 holes"]);
+}
+
 #[test]
 fn a_mesh_does_not_replace_the_points_it_is_of() {
     let bench = Bench::new();

@@ -38,6 +38,8 @@ pub(super) fn with_box(graph: &Pslg) -> Pslg {
 /// Leaves of a mesh's arrays what is about the graph without its box.
 pub(super) fn forget_box(made: &mut PslgMesh, graph: &Pslg) {
     let (points, segments) = (graph.points.len(), graph.segments.len());
+    // The box may lie in a hole, as a whole: then it has no vertices.
+    let corners = made.vertex_of_point[points..].iter().flatten().count();
     made.vertex_of_point.truncate(points);
     for point in &mut made.point_of_vertex {
         *point = point.filter(|&p| (p as usize) < points);
@@ -46,7 +48,7 @@ pub(super) fn forget_box(made: &mut PslgMesh, graph: &Pslg) {
     for edge in &mut made.edges {
         edge.segment = edge.segment.filter(|&s| (s as usize) < segments);
     }
-    made.certificate.inputs -= 4;
+    made.certificate.inputs -= corners;
     // One that is missing stays missing.
-    made.certificate.inputs_kept = made.certificate.inputs_kept.saturating_sub(4);
+    made.certificate.inputs_kept = made.certificate.inputs_kept.saturating_sub(corners);
 }

@@ -5,6 +5,7 @@
 
 mod attributes;
 mod boxed;
+pub(crate) mod prepare;
 mod repair;
 pub(crate) mod report;
 pub(crate) mod result;
@@ -18,14 +19,11 @@ use crate::placement::finest_spacing;
 use crate::size::SizeError;
 use crate::sized;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Unwatched, smallest_enclosing_circle};
-use hexdel_pslg::{
-    Extent, Options, PslgError, PslgMesh, Seed, SegmentMethod, Validated, mesh, mesh_sized, validate,
-};
-use repair::Repaired;
+use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, SegmentMethod, Validated, mesh, mesh_sized};
+use prepare::Prepared;
 use result::PslgTriangulation;
 use std::time::Instant;
 use verify::Meshed;
-use warning::Warning;
 use watch::Stopwatch;
 
 /// The part of the plane that the mesh of a graph covers. Holes are left out of
@@ -80,7 +78,7 @@ pub(crate) enum Tolerance {
 #[non_exhaustive]
 pub enum Overlaps {
     /// The later polygon's attribute and largest area are taken, with a
-    /// [warning](Warning::Overlap).
+    /// [warning](crate::Warning::Overlap).
     #[default]
     Later,
     /// They are an error.
@@ -328,38 +326,11 @@ impl Mesher {
         self.on_threads(|| self.run_pslg(pslg, monitor))
     }
 
-    /// The graph that is meshed: repaired if asked for, borders of polygons divided where
-    /// they meet others, and holes and regions in place of polygons.
-    ///
-    /// # Errors
-    ///
-    /// As [`triangulate_pslg`](Self::triangulate_pslg).
-    pub fn prepared_pslg(&self, pslg: &Pslg) -> Result<Pslg, Error> {
-        let mut repaired = Repaired::new(pslg, self.graph.repair)?;
-        let validated = validate(&repaired.graph).map_err(|e| repaired.as_given(e))?;
-        let (validated, _) = self.seeded(validated, self.domain_of(pslg).extent(), pslg)?;
-        repaired.seed(validated.pslg());
-        Ok(repaired.graph)
-    }
-
-    fn domain_of(&self, graph: &Pslg) -> Domain {
-        let usual = if graph.segments.is_empty() { Domain::Hexagon } else { Domain::Inside };
-        self.graph.domain.unwrap_or(usual)
-    }
-
     fn run_pslg(&self, pslg: &Pslg, monitor: &dyn Monitor) -> Result<PslgTriangulation, Error> {
         self.refuse_for_graphs()?;
         let watch = Stopwatch::new(monitor);
         let began = Instant::now();
-        let mut repaired = Repaired::new(pslg, self.graph.repair)?;
-        let graph = &repaired.graph;
-        let domain = self.domain_of(graph);
-        let boxed = (domain == Domain::Box).then(|| boxed::with_box(graph));
-        let validated = validate(boxed.as_ref().unwrap_or(graph)).map_err(|e| repaired.as_given(e))?;
-        let (validated, mut warnings) = self.seeded(validated, domain.extent(), pslg)?;
-        let unasked = repaired.report.as_ref().filter(|_| self.graph.repair.is_none());
-        warnings.extend(unasked.and_then(warning::of_division));
-        repaired.seed(validated.pslg());
+        let Prepared { repaired, validated, domain, warnings } = self.prepare(pslg)?;
         let graph = &repaired.graph;
         self.check_graph_size(&graph.points)?;
         let mut options = self.pslg_options(domain);
@@ -374,7 +345,7 @@ impl Mesher {
         options.budget = self.budget.map(|budget| budget.saturating_sub(began.elapsed()));
         let mut made =
             self.mesh_of_graph(&validated, &options, &watch).map_err(|e| repaired.error_as_given(e))?;
-        if boxed.is_some() {
+        if domain == Domain::Box {
             boxed::forget_box(&mut made, graph);
         }
         verify::list_all(&mut made);
@@ -386,29 +357,6 @@ impl Mesher {
         watch.progress(Phase::Certify, total, total);
         let made = PslgTriangulation::new(made, segments, repaired, domain, watch.seconds());
         Ok(PslgTriangulation { warnings, size_ratio, far_bounds: options.far, places, ..made })
-    }
-
-    /// A graph with holes and regions in place of polygons, and what is to be said of them.
-    fn seeded(
-        &self,
-        validated: Validated,
-        extent: Extent,
-        given: &Pslg,
-    ) -> Result<(Validated, Vec<Warning>), Error> {
-        let (validated, cover) = validated.seeded(extent);
-        let mut warnings = warning::of_cover(&cover, given);
-        if let (Overlaps::Refuse, Some(&Warning::Overlap { polygons, attributes, at, area })) =
-            (self.graph.overlaps, warnings.first())
-        {
-            return Err(Error::Overlap { polygons, attributes, at, area });
-        }
-        let own = |seed| match seed {
-            Seed::Hole(i) => (i as usize) < given.holes.len(),
-            Seed::Region(i) => (i as usize) < given.regions.len(),
-        };
-        let unused = validated.unused_seeds(extent).into_iter().filter(|unused| own(unused.seed));
-        warnings.extend(unused.map(Warning::UnusedSeed));
-        Ok((validated, warnings))
     }
 
     fn mesh_of_graph(

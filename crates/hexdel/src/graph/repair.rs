@@ -5,7 +5,7 @@ use crate::error::Error;
 use hexdel_geom::{DVec2, Pslg};
 use hexdel_pslg::{
     Feature, LooseEnd, Near, PslgError, Repair, RepairReport, ValidateError, drop_repeated, repair,
-    repair_nearly_on, violations,
+    repair_nearly_on,
 };
 
 /// The tolerance over the graph's size; a hundredth of the width of the thinnest
@@ -26,12 +26,13 @@ pub(crate) struct Repaired {
 impl Repaired {
     pub(super) fn new(given: &Pslg, tolerance: Option<Tolerance>) -> Result<Self, Error> {
         let (graph, report) = match tolerance {
-            None if given.polygons.is_empty() => {
+            // Of polygons, what is twice is a border of two.
+            None if !given.polygons.is_empty() => return Ok(Self { graph: given.clone(), report: None }),
+            None => {
                 let dropped = drop_repeated(given).map(|(graph, report)| (graph, Some(report)));
                 let (graph, report) = dropped.unwrap_or_else(|| (given.clone(), None));
                 return Ok(Self { graph, report });
             }
-            None => return Self::divided(given),
             Some(Tolerance::Relative) => repair_nearly_on(given, relative(given))?,
             Some(Tolerance::Absolute(tolerance)) if tolerance.is_finite() && tolerance >= 0.0 => {
                 repair(given, tolerance)?
@@ -41,15 +42,13 @@ impl Repaired {
         Ok(Self { graph, report: Some(report) })
     }
 
-    /// A graph whose polygons' borders are divided where they meet those of others, or
-    /// lines: that is how maps are drawn. Whatever else is wrong stays so.
-    fn divided(given: &Pslg) -> Result<Self, Error> {
-        let as_given = Self { graph: given.clone(), report: None };
-        if given.polygons.is_empty() || violations(given).is_empty() {
-            return Ok(as_given);
-        }
+    /// A graph that is not valid as given, with the borders of its polygons divided where they
+    /// meet those of others, or lines: that is how maps are drawn. Whatever else is wrong stays so.
+    pub(super) fn divided(given: &Pslg) -> Result<Self, Error> {
         let owners = Owners::of(given);
-        let Ok((graph, report)) = repair(given, 0.0) else { return Ok(as_given) };
+        let Ok((graph, report)) = repair(given, 0.0) else {
+            return Ok(Self { graph: given.clone(), report: None });
+        };
         for done in &report.repairs {
             match *done {
                 Repair::DividedAtCrossing { segments, at } if !owners.differ(segments) => {
@@ -129,7 +128,7 @@ impl Repaired {
     }
 
     /// The first segment given that a segment of the graph is a part of.
-    fn segment(&self, segment: usize) -> usize {
+    pub(super) fn segment(&self, segment: usize) -> usize {
         let report = self.report.as_ref();
         report.and_then(|r| r.sources.get(segment)?.first()).map_or(segment, |&s| s as usize)
     }

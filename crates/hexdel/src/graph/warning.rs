@@ -60,9 +60,13 @@ impl std::fmt::Display for Warning {
                 write!(f, "area {area}: {last} is taken there")
             }
             Self::DividedBorders { at, places } => {
-                write!(f, "borders of polygons were divided at ({}, {}) ", at.x, at.y)?;
-                let more = places - 1;
-                write!(f, "and {more} other places, where they cross or run along each other")
+                write!(f, "borders of polygons were divided at ({}, {})", at.x, at.y)?;
+                match places - 1 {
+                    0 => {}
+                    1 => write!(f, " and 1 other place")?,
+                    more => write!(f, " and {more} other places")?,
+                }
+                write!(f, ", where they cross or run along each other")
             }
             Self::StrayRing(StrayRing { polygon, ring, other, at }) => {
                 write!(f, "ring {ring} of polygon {polygon} takes nothing away at ({}, {}): ", at.x, at.y)?;

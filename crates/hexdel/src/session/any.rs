@@ -1,9 +1,11 @@
 //! Sessions of either method behind one type.
 
 use super::{Outcome, PointId, Session, SessionCheck, SessionError, SessionMesh, TemplateSession};
+use crate::graph::warning::Warning;
 use crate::mesher::{Mesher, Method};
 use crate::size::Size;
 use hexdel_geom::{Certificate, DVec2, Pslg};
+use hexdel_pslg::RepairReport;
 
 /// A session of either method.
 ///
@@ -252,6 +254,22 @@ impl AnySession {
         match self {
             Self::Compact(session) => session.check(),
             Self::Templates(session) => session.certificate().into(),
+        }
+    }
+
+    /// As [`Session::warnings`]; templates have none.
+    pub fn warnings(&self) -> &[Warning] {
+        match self {
+            Self::Compact(session) => session.warnings(),
+            Self::Templates(_) => &[],
+        }
+    }
+
+    /// As [`Session::repairs`]; templates have none.
+    pub fn repairs(&self) -> Option<&RepairReport> {
+        match self {
+            Self::Compact(session) => session.repairs(),
+            Self::Templates(_) => None,
         }
     }
 

@@ -5,12 +5,13 @@ use super::{PointId, Session, SessionError, SessionMesh};
 use crate::error::Error;
 use crate::graph::Domain;
 use crate::graph::result::PslgTriangulation;
+use crate::graph::warning::Warning;
 use crate::mesher::Mesher;
 use hexdel_geom::{Certificate, Circle, smallest_enclosing_circle};
 use hexdel_geom::{CertifyOptions, DVec2, Pslg, SegmentCheck, VertexId, certify, check_segments};
 use hexdel_optimize::live::{LiveMesh, Snapshot};
 use hexdel_optimize::{Constraints, Sizing, VertexKind, kinds_of};
-use hexdel_pslg::{Reason, SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers};
+use hexdel_pslg::{Reason, RepairReport, SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
@@ -52,6 +53,13 @@ impl Frame {
             && self.in_fans <= self.lines.len()
             && live.segments().eq(self.lines.iter().copied())
     }
+}
+
+/// What was to be said of a graph when its session began.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Told {
+    repairs: Option<RepairReport>,
+    warnings: Vec<Warning>,
 }
 
 /// What a session keeps, found out from scratch.
@@ -178,8 +186,9 @@ impl Rows {
 
 impl Session {
     /// The mesh that a mesher makes of a graph of points and segments, as a
-    /// session. Points of the graph are numbered as in it; those in holes or outside
-    /// of the domain are not there, and those that segments end at stay.
+    /// session. Points of the graph are numbered as in it, or as in what repair has made of it
+    /// ([`repairs`](Self::repairs)); those in holes or outside of the domain are not there, and
+    /// those that segments end at stay.
     ///
     /// ```
     /// use hexdel::{DVec2, Mesher, Pslg, Session};
@@ -285,6 +294,7 @@ impl Session {
             points,
             of_slot,
             frame: Some(Arc::new(frame)),
+            told: Arc::new(Told { repairs: made.repairs.clone(), warnings: made.warnings.clone() }),
             changed: 0,
             history: VecDeque::new(),
         };
@@ -332,22 +342,47 @@ impl Session {
         }
     }
 
+    /// What of the graph that the session began with is not used or could have been meant
+    /// otherwise, as of [`PslgTriangulation::warnings`]. It is not saved.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Pslg, Session};
+    /// let mut triangle = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::Y]);
+    /// triangle.segments = vec![[0, 1], [1, 2], [2, 0]];
+    /// triangle.holes = vec![DVec2::ONE];
+    /// let session = Session::with_segments(&triangle, &Mesher::new())?;
+    /// assert_eq!(session.warnings()[0].to_string(), "hole 0 at (1, 1) is not used: it lies outside of the domain");
+    /// # Ok::<(), hexdel::SessionError>(())
+    /// ```
+    pub fn warnings(&self) -> &[Warning] {
+        &self.told.warnings
+    }
+
+    /// What repair did to the graph that the session began with, as of
+    /// [`PslgTriangulation::repairs`]: the points of the session are those of the graph made. It
+    /// is not saved.
+    pub fn repairs(&self) -> Option<&RepairReport> {
+        self.told.repairs.as_ref()
+    }
+
     /// What the mesh keeps, found out from scratch.
     ///
     /// # Complexity
     ///
     /// Linear in the mesh.
     pub fn check(&self) -> SessionCheck {
-        let snapshot = self.live.snapshot();
-        let Some(frame) = &self.frame else {
-            return self.certificate().into();
-        };
+        self.checked(self.certificate())
+    }
+
+    /// The rest of a check.
+    pub(super) fn checked(&self, certificate: Certificate) -> SessionCheck {
+        let Some(frame) = &self.frame else { return certificate.into() };
         let lines = &frame.lines[..frame.lines.len() - frame.in_fans];
         let points: Vec<DVec2> = lines.iter().flatten().copied().collect();
         let pieces: Vec<[u32; 2]> = (0..lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         SessionCheck {
-            certificate: self.certificate(),
-            segments: check_segments(&snapshot.mesh, &points, &pieces),
+            certificate,
+            segments: check_segments(&self.live.snapshot().mesh, &points, &pieces),
             out_of_bounds: self.live.out_of_bounds(),
         }
     }

@@ -30,8 +30,8 @@ use std::sync::Arc;
 pub use any::AnySession;
 use domain::reaching;
 pub use error::SessionError;
-use graph::Frame;
 pub use graph::SessionCheck;
+use graph::{Frame, Told};
 pub use outcome::{Outcome, PointId, SessionMesh};
 use remesh::kinds;
 pub use templates::TemplateSession;
@@ -83,6 +83,8 @@ pub struct Session {
     of_slot: BTreeMap<u32, PointId>,
     /// What there is of a graph.
     frame: Option<Arc<Frame>>,
+    /// What was to be said of it.
+    told: Arc<Told>,
     /// Points that have come or gone since the mesh was compared with one made at once.
     changed: usize,
     /// What undoes the last calls, the last one at the end.
@@ -140,6 +142,7 @@ impl Session {
             points: Vec::new(),
             of_slot: BTreeMap::new(),
             frame: None,
+            told: Arc::default(),
             changed: 0,
             history: VecDeque::new(),
         })
@@ -178,6 +181,7 @@ impl Session {
             of_slot: slots.iter().enumerate().map(|(i, &v)| (v, PointId(i as u64))).collect(),
             points: slots.into_iter().map(Some).collect(),
             frame: None,
+            told: Arc::default(),
             changed: 0,
             history: VecDeque::new(),
         })
@@ -545,24 +549,32 @@ impl Session {
         made
     }
 
-    /// The certificate of the whole mesh, made from scratch; the shortest edge promised is the
+    /// The certificate of the whole mesh, made from scratch. The shortest edge is held against the
     /// paper's `l_min` of the closest two of points and corners of the domain, of the distance of
-    /// points to its sides, or of the least size, whichever is least. Of a graph against the bounds near segments, with exempt triangles out of bounds:
-    /// [`check`](Self::check) knows them.
+    /// points to its sides, or of the least size, whichever is least. It is measured, not kept:
+    /// nothing is refused for an edge that is shorter, a saved session neither. Of a graph against
+    /// the bounds near segments, with exempt triangles out of bounds: [`check`](Self::check) knows
+    /// them.
     ///
     /// # Complexity
     ///
     /// Linear in the mesh.
     pub fn certificate(&self) -> Certificate {
         let (_, points) = self.present();
+        let domain = (self.centre, self.radius);
+        let mesh = &self.live.snapshot().mesh;
+        self.certificate_with(shortest::of_session(&points, domain, mesh, self.size.as_ref()))
+    }
+
+    /// The same against another shortest edge, or none; of a graph there is none.
+    fn certificate_with(&self, min_edge: Option<f64>) -> Certificate {
+        let (_, points) = self.present();
         if self.frame.is_some() {
             return self.certificate_of_graph(&points);
         }
-        let mesh = &self.live.snapshot().mesh;
-        let min_edge = shortest::of_session(&points, (self.centre, self.radius), mesh, self.size.as_ref());
         let options =
             CertifyOptions { bounds: self.bounds, inputs: Some(&points), min_edge, ..Default::default() };
-        certify(mesh, &options)
+        certify(&self.live.snapshot().mesh, &options)
     }
 }
 

@@ -1,6 +1,7 @@
 //! All points meshed anew, where changes nearby do not suffice.
 
 use super::{Before, Frame, Outcome, PointId, Session, SessionError, Undo};
+use crate::error::Error;
 use crate::placement::MAX_COORDINATE;
 use crate::size::Size;
 use crate::triangulation::Triangulation;
@@ -59,10 +60,10 @@ impl Session {
             return Err(SessionError::NotFinite { at });
         }
         let anew = self.anew_with_segments(frame, points).map_err(|error| match error {
-            // What has not come about, or is not taken for valid.
-            SessionError::Mesh(_)
-            | SessionError::NotCertified { .. }
-            | SessionError::NotForSessions { .. } => SessionError::NoRoom { at },
+            // Its bounds do not hold either, or it names parts of a graph made on the way.
+            SessionError::NotCertified { .. } | SessionError::Mesh(Error::Pslg(_) | Error::Segments(_)) => {
+                SessionError::NoRoom { at }
+            }
             error => error,
         })?;
         Ok(self.replace_graph(anew))

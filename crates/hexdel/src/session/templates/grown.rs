@@ -363,7 +363,7 @@ pub(super) fn too_fine() -> SizeError {
     SizeError::TooFine { levels: Grid::MAX_LEVELS }
 }
 
-/// The certificate of a mesh; what is restored need not keep a shortest edge.
+/// The certificate of a mesh, against a shortest edge if there is one: it is measured, not kept.
 pub(super) fn certified(mesh: &TriMesh, points: &[DVec2], min_edge: Option<f64>) -> Certificate {
     let bounds = AngleBounds::EXTENDED;
     certify(mesh, &CertifyOptions { bounds, inputs: Some(points), min_edge, ..CertifyOptions::default() })

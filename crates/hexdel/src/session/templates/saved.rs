@@ -130,7 +130,7 @@ impl TemplateSession {
     }
 
     /// Reads what [`to_ron`](Self::to_ron) wrote. The grid is held against its
-    /// rules, and the mesh is certified anew.
+    /// rules, and the mesh is certified anew, but for its shortest edge.
     ///
     /// # Errors
     ///

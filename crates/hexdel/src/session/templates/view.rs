@@ -65,8 +65,8 @@ impl TemplateSession {
         })
     }
 
-    /// The certificate of the whole mesh, made from scratch; the shortest edge promised is as
-    /// that of [`Session::certificate`](crate::Session::certificate).
+    /// The certificate of the whole mesh, made from scratch; the shortest edge is measured as
+    /// by [`Session::certificate`](crate::Session::certificate).
     ///
     /// # Complexity
     ///
