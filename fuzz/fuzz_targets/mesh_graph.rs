@@ -16,7 +16,12 @@ fuzz_target!(|bytes: &[u8]| {
         Err(
             Error::Segments(_)
             | Error::Points(_)
-            | Error::Pslg(PslgError::NothingEnclosed { .. } | PslgError::TooClose { .. }),
+            | Error::Pslg(
+                PslgError::NothingEnclosed { .. }
+                | PslgError::TooClose { .. }
+                | PslgError::TooMany { .. }
+                | PslgError::NotRecovered { .. },
+            ),
         ) => {}
         Err(error) => panic!("{error} {graph:?}"),
     }

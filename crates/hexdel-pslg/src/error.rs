@@ -154,7 +154,7 @@ pub enum PslgError {
         kept: AngleBounds,
     },
     /// A bound on the triangles' area is not a positive number.
-    #[error("{area} is no bound on an area")]
+    #[error("the largest area must be positive and finite, got {area:?}")]
     InvalidArea {
         /// The bound.
         area: f64,

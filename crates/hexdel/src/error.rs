@@ -1,6 +1,7 @@
 //! Why points or a graph could not be meshed.
 
 use crate::size::SizeError;
+use crate::workers::MAX_THREADS;
 use hexdel_classify::DualError;
 use hexdel_geom::{AngleBounds, Cancelled, Certificate, DVec2, DelaunayError, PointsError, TriMesh};
 use hexdel_optimize::OptimizeError;
@@ -64,7 +65,7 @@ pub enum Error {
         most: f64,
     },
     /// The domain asked for is not a positive number.
-    #[error("{radius:?} is no radius of a domain")]
+    #[error("the radius of the domain must be positive and finite, got {radius:?}")]
     InvalidRadius {
         /// The radius asked for.
         radius: f64,
@@ -114,7 +115,7 @@ pub enum Error {
         area: f64,
     },
     /// A tolerance of repair is not a number, or negative.
-    #[error("{tolerance:?} is no tolerance")]
+    #[error("the tolerance must be finite and not negative, got {tolerance:?}")]
     InvalidTolerance {
         /// The tolerance asked for.
         tolerance: f64,
@@ -145,8 +146,8 @@ pub enum Error {
     /// the coordinates are exhausted there.
     #[error(transparent)]
     Delaunay(#[from] DelaunayError),
-    /// The threads asked for could not be started.
-    #[error("cannot start {threads} threads")]
+    /// The threads asked for could not be started, or are more than there may be.
+    #[error("cannot start {threads} threads: there may be up to {MAX_THREADS}")]
     Threads {
         /// How many were asked for.
         threads: usize,

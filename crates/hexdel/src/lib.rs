@@ -58,6 +58,7 @@ mod sized;
 #[cfg(feature = "spade")]
 pub mod spade;
 pub mod triangulation;
+mod workers;
 
 pub use hexdel_classify as classify;
 pub use hexdel_geom as geom;

@@ -8,6 +8,7 @@ use crate::shortest::of_placement;
 use crate::size::{Size, SizeError};
 use crate::sized::{self, Sized};
 use crate::triangulation::{Patch, Seconds, Triangulation};
+use crate::workers::Workers;
 use hexdel_classify::{Domain, Dual, Relocation};
 use hexdel_geom::monitor::check;
 use hexdel_geom::{
@@ -263,7 +264,7 @@ impl Mesher {
         self.threads
     }
 
-    /// How many threads work, by default as many as the machine has. The mesh
+    /// How many threads work, by default as many as the machine has, at most 1024. The mesh
     /// does not depend on it.
     ///
     /// ```
@@ -395,14 +396,7 @@ impl Mesher {
         &self,
         work: impl FnOnce() -> Result<T, Error> + Send,
     ) -> Result<T, Error> {
-        let Some(threads) = self.threads else {
-            return work();
-        };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|_| Error::Threads { threads })?;
-        pool.install(work)
+        Workers::new(self.threads)?.run(work)
     }
 
     fn run(&self, points: &[DVec2], monitor: &dyn Monitor) -> Result<Triangulation, Error> {

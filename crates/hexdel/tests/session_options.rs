@@ -53,6 +53,55 @@ fn threads_are_kept_across_saving() {
     }
 }
 
+/// A saved session may say any number.
+#[test]
+fn more_threads_than_there_may_be_are_refused() {
+    let graph = Pslg::from_points(points(5));
+    for method in [Method::Compact, Method::Templates] {
+        let session = AnySession::new(&graph, &Mesher::new().method(method).threads(2)).unwrap();
+        let text = session.to_ron().unwrap().replace("threads:Some(2)", "threads:Some(1025)");
+        let refused = AnySession::from_ron(&text).unwrap_err();
+        assert_eq!(refused, SessionError::Mesh(Error::Threads { threads: 1025 }), "{method:?}");
+    }
+    let refused = Mesher::new().threads(usize::MAX).triangulate(&points(5)).unwrap_err();
+    let expected = format!("cannot start {} threads: there may be up to 1024", usize::MAX);
+    assert_eq!(refused.to_string(), expected);
+}
+
+/// What is expected and what was given, and the way out.
+#[test]
+fn messages_say_what_is_expected() {
+    let square = square();
+    let mesh = |mesher: &Mesher| mesher.triangulate(&points(3)).unwrap_err().to_string();
+    let graph = |mesher: &Mesher| mesher.triangulate_pslg(&square).unwrap_err().to_string();
+    let mut session = Session::new(&points(3), &Mesher::new()).unwrap();
+    let mut insert = |x: f64| session.insert(DVec2::new(x, 0.0)).unwrap_err().to_string();
+    for (found, expected) in [
+        (
+            mesh(&Mesher::new().domain_radius(-1.0)),
+            "the radius of the domain must be positive and finite, got -1.0",
+        ),
+        (
+            graph(&Mesher::new().repair_within(-1.0)),
+            "the tolerance must be finite and not negative, got -1.0",
+        ),
+        (graph(&Mesher::new().max_area(-1.0)), "the largest area must be positive and finite, got -1.0"),
+        (
+            Size::unlimited().with_gradation(-1.0).unwrap_err().to_string(),
+            "the gradation must be positive and finite, got -1.0",
+        ),
+        (
+            Session::empty(DVec2::ZERO, -1.0).unwrap_err().to_string(),
+            "the radius of a domain must be positive, resolved by its coordinates and within 1e70, got -1.0 around \
+             (0.0, 0.0)",
+        ),
+        (insert(f64::NAN), "the coordinates of a point must be finite, got (NaN, 0)"),
+    ] {
+        assert_eq!(found, expected);
+    }
+    assert!(insert(99.0).ends_with("which does not grow by itself: `grow` doubles it"));
+}
+
 #[test]
 fn what_is_not_kept_is_refused_by_name() {
     let all = points(5);

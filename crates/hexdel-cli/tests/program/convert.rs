@@ -135,7 +135,7 @@ fn conversion_warns_of_what_meshing_warns_of() {
         )
     };
     let two = [square(0.0, 0.0, 4.0, 1), square(2.0, 2.0, 4.0, 2)].join(",");
-    bench.file("m.geojson", &format!(r#"{{"type": "FeatureCollection", "features": [{two}]}}"#));
+    bench.file("m.geojson", format!(r#"{{"type": "FeatureCollection", "features": [{two}]}}"#));
     let warnings =
         |err: &str| err.lines().filter(|l| l.starts_with("warning: m.geojson")).map(str::to_owned).collect();
     let mesh = bench.run("mesh m.geojson --quiet -o m.vtu");

@@ -52,8 +52,12 @@ impl Hull {
     }
 
     fn contains(&self, hex: Hex) -> bool {
-        let axes = [hex.q, hex.r, hex.q + hex.r];
-        (0..3).all(|i| (self.low[i]..=self.high[i]).contains(&axes[i]))
+        self.holds(Self::of(hex))
+    }
+
+    /// Whether it contains all of another.
+    fn holds(&self, other: Self) -> bool {
+        (0..3).all(|i| self.low[i] <= other.low[i] && other.high[i] <= self.high[i])
     }
 
     /// The first hexagons of all tiles that it meets, row by row, and its hexagons in each.
@@ -96,7 +100,9 @@ impl Refiner {
         for (id, bits) in asked {
             let first = self.grid.tiles().first(level, id);
             let mut inside = bits;
-            for bit in ones(bits).filter(|&bit| !allowed.contains(first + hex_of(bit))) {
+            // Mostly the whole tile is allowed.
+            let rest = if allowed.holds(Hull::of_tile(first)) { 0 } else { bits };
+            for bit in ones(rest).filter(|&bit| !allowed.contains(first + hex_of(bit))) {
                 inside &= !(1 << bit);
                 refused = refused.or(Some(Address::new(level, first + hex_of(bit))));
             }
@@ -158,6 +164,14 @@ mod tests {
         assert_eq!(count(disc.grown(1)), 1 + 3 * 10 * 11);
         assert!(Hex::ORIGIN.disc(9).all(|h| disc.contains(h)));
         assert!(Hex::ORIGIN.ring(10).all(|h| !disc.contains(h)));
+        // A tile is held if all its hexagons are contained, and else not.
+        let mut held = 0;
+        for first in Hex::ORIGIN.disc(9) {
+            let all = (0..64).all(|bit| disc.contains(first + hex_of(bit)));
+            assert_eq!(disc.holds(Hull::of_tile(first)), all, "{first:?}");
+            held += u32::from(all);
+        }
+        assert!(held > 0);
     }
 
     /// With so little room that hulls are filled again and again, every rule holds in the

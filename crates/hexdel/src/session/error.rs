@@ -2,6 +2,7 @@
 
 use super::PointId;
 use crate::error::Error;
+use crate::placement::MAX_COORDINATE;
 use crate::size::SizeError;
 use hexdel_geom::{Certificate, DVec2};
 use hexdel_optimize::live::{LiveError, StateError};
@@ -12,13 +13,13 @@ use thiserror::Error as ThisError;
 #[non_exhaustive]
 pub enum SessionError {
     /// A coordinate is not a finite number.
-    #[error("({}, {}) is no point", at.x, at.y)]
+    #[error("the coordinates of a point must be finite, got ({}, {})", at.x, at.y)]
     NotFinite {
         /// The point.
         at: DVec2,
     },
     /// A point is not inside the domain.
-    #[error("({:?}, {:?}) lies outside of the domain of radius {radius:?}, which does not grow by itself", at.x, at.y)]
+    #[error("({:?}, {:?}) lies outside of the domain of radius {radius:?}, which does not grow by itself: `grow` doubles it", at.x, at.y)]
     Outside {
         /// The point.
         at: DVec2,
@@ -92,7 +93,11 @@ pub enum SessionError {
     #[error("there is nothing to undo")]
     NothingToUndo,
     /// A radius is not positive, or coordinates do not resolve it.
-    #[error("{radius:?} is no radius of a domain around ({:?}, {:?})", centre.x, centre.y)]
+    #[error(
+        "the radius of a domain must be positive, resolved by its coordinates and within {MAX_COORDINATE:e}, got \
+         {radius:?} around ({:?}, {:?})",
+        centre.x, centre.y
+    )]
     InvalidDomain {
         /// The centre of the domain.
         centre: DVec2,
@@ -121,7 +126,7 @@ pub enum SessionError {
     #[error("no session: {0}")]
     State(#[from] StateError),
     /// What was read is a session whose points are not vertices of its mesh.
-    #[error("no session: point {} is no vertex", id.0)]
+    #[error("no session: point {} must be a vertex of its own", id.0)]
     Points {
         /// The first such point.
         id: PointId,

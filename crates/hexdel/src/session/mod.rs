@@ -15,7 +15,6 @@ mod outcome;
 mod remesh;
 mod saved;
 mod templates;
-mod workers;
 
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};

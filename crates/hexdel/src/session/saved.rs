@@ -1,10 +1,12 @@
 //! Sessions as text (RON), to be continued.
 
 use super::{Frame, PointId, Session, SessionError};
+use crate::error::Error;
 use crate::mesher::Mesher;
 use crate::placement::finest_spacing;
 use crate::size::{Size, SizeError};
 use crate::sized;
+use crate::workers;
 use hexdel_geom::DVec2;
 use hexdel_optimize::live::{LiveMesh, LiveState};
 use hexdel_optimize::{Effort, SIZE_TOLERANCE, Sizing};
@@ -54,10 +56,11 @@ impl SavedOptions {
         }
     }
 
-    pub(super) fn restored(self, effort: Effort) -> Mesher {
+    pub(super) fn restored(self, effort: Effort) -> Result<Mesher, Error> {
+        self.threads.map_or(Ok(()), workers::check)?;
         let mesher = Mesher::new().effort(effort).coarsening(!self.without_coarsening);
         let mesher = self.budget.into_iter().fold(mesher, Mesher::budget);
-        self.threads.into_iter().fold(mesher, Mesher::threads)
+        Ok(self.threads.into_iter().fold(mesher, Mesher::threads))
     }
 }
 
@@ -129,7 +132,7 @@ impl Session {
         let session = Self {
             bounds: live.bounds()[1],
             live,
-            options: document.options.restored(effort),
+            options: document.options.restored(effort)?,
             centre,
             radius,
             grows: document.grows,

@@ -39,7 +39,7 @@ pub enum SizeError {
         least: f64,
     },
     /// A gradation is not positive.
-    #[error("{gradation:?} is no gradation")]
+    #[error("the gradation must be positive and finite, got {gradation:?}")]
     Gradation {
         /// The gradation given.
         gradation: f64,

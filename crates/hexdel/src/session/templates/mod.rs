@@ -21,12 +21,12 @@ mod saved;
 mod view;
 
 use super::domain::{is_inside, reaching};
-use super::workers::Workers;
 use super::{Outcome, PointId, SessionError, UNDO};
 use crate::mesher::{Mesher, Method};
 use crate::placement::{CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
 use crate::sized::check_count;
+use crate::workers::Workers;
 use cells::{Replaced, Serials};
 use grown::{Grown, Step, Stuck};
 use hexdel_geom::{DVec2, TriMesh, closest_pair};

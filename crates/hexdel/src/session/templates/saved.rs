@@ -9,9 +9,9 @@ use crate::placement::{FINEST, MAX_COORDINATE, finest_spacing};
 use crate::session::SessionError;
 use crate::session::domain::is_inside;
 use crate::session::saved::SavedOptions;
-use crate::session::workers::Workers;
 use crate::size::{Size, SizeError};
 use crate::sized;
+use crate::workers::Workers;
 use hexdel_classify::Domain;
 use hexdel_geom::DVec2;
 use hexdel_grid::{Address, Hex, Lattice};
@@ -139,7 +139,7 @@ impl TemplateSession {
     pub fn from_ron(text: &str) -> Result<Self, SessionError> {
         let document: Document = ron::from_str(text).map_err(|e| unreadable(&e.to_string()))?;
         let orders = document.check()?;
-        let options = document.options.restored(Effort::Standard).method(Method::Templates);
+        let options = document.options.restored(Effort::Standard)?.method(Method::Templates);
         let workers = Workers::new(options.asked_threads())?;
         let lattice = Lattice::new(document.centre, document.spacing);
         let tiles = document.tiles.iter().map(|&(level, q, r, bits)| (level, Hex::new(q, r), bits));

@@ -1,30 +1,39 @@
-//! The threads that a session was made with.
+//! The threads that work.
 
 use crate::error::Error;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::Arc;
 
+/// Most threads that may be asked for: more than any machine has use for, and few enough to start.
+pub(crate) const MAX_THREADS: usize = 1024;
+
 /// So many threads as were asked for, or those of whoever calls.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Workers(Option<Arc<ThreadPool>>);
+pub(crate) struct Workers(Option<Arc<ThreadPool>>);
 
 impl Workers {
     /// # Errors
     ///
     /// [`Error::Threads`].
-    pub(super) fn new(threads: Option<usize>) -> Result<Self, Error> {
+    pub(crate) fn new(threads: Option<usize>) -> Result<Self, Error> {
         let Some(threads) = threads else {
             return Ok(Self(None));
         };
+        check(threads)?;
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         Ok(Self(Some(Arc::new(pool.map_err(|_| Error::Threads { threads })?))))
     }
 
     /// Works on them.
-    pub(super) fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+    pub(crate) fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match &self.0 {
             Some(pool) => pool.install(work),
             None => work(),
         }
     }
+}
+
+/// Refuses more threads than there may be.
+pub(crate) fn check(threads: usize) -> Result<(), Error> {
+    if threads <= MAX_THREADS { Ok(()) } else { Err(Error::Threads { threads }) }
 }
