@@ -71,7 +71,7 @@ impl<'a> Limits<'a> {
         let everywhere = options.max_area.unwrap_or(f64::INFINITY);
         let limit_of = |region: Option<u32>| region.and_then(|r| regions[r as usize].max_area);
         let limit = |region| limit_of(region).map_or(everywhere, |limit| limit.min(everywhere));
-        let mut by_triangle: Vec<f64> = plane.regions(input).into_iter().map(limit).collect();
+        let mut by_triangle: Vec<f64> = plane.regions(&input.pslg.regions).into_iter().map(limit).collect();
         let carved = reached(&input.plane, &input.pslg.holes, options.extent == Extent::Inside);
         for (limit, &doomed) in by_triangle.iter_mut().zip(&carved) {
             if doomed {

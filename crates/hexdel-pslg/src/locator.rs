@@ -4,7 +4,7 @@ use crate::carve::flood;
 use crate::net::insert::Place;
 use crate::net::{NONE, Net};
 use crate::validate::{Validated, bounding_box};
-use hexdel_geom::DVec2;
+use hexdel_geom::{DVec2, Region};
 
 /// Starts every walk near its goal: at the triangle that the centre of a cell
 /// lies in, of a grid with about as many cells as there are vertices. So what it
@@ -65,9 +65,9 @@ impl<'a> Locator<'a> {
 
     /// By triangle of the plane: the region it lies in; of two in the same part of
     /// the plane the first.
-    pub(crate) fn regions(&self, input: &Validated) -> Vec<Option<u32>> {
+    pub(crate) fn regions(&self, seeds: &[Region]) -> Vec<Option<u32>> {
         let mut regions = vec![None; self.plane.tri_count() as usize];
-        for (region, i) in input.pslg.regions.iter().zip(0..) {
+        for (region, i) in seeds.iter().zip(0..) {
             let hint = self.triangle_at(region.point).unwrap_or(NONE);
             let Some(start) = self.plane.part_at(region.point, hint) else { continue };
             flood(self.plane, vec![start], |t| {

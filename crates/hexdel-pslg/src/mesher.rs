@@ -72,6 +72,8 @@ const ROUGH_RADII: f64 = 1.25;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// Holes and regions outside of the hull are to be left away before: [`Validated::confined`].
+///
 /// # Panics
 ///
 /// Never; a broken invariant would be a defect of the library.

@@ -259,7 +259,7 @@ fn regions(net: &Net, input: &Validated) -> Vec<Option<u32>> {
         return vec![None; net.alive().count()];
     }
     let plane = Locator::of(input);
-    let regions = plane.regions(input);
+    let regions = plane.regions(&input.pslg.regions);
     let [min, max] = [0, 2].map(|corner| input.plane.at(corner));
     let region_at = |t: u32| {
         let [a, b, c] = net.corners(t);

@@ -7,7 +7,7 @@ use crate::net::NONE;
 use crate::net::insert::Place;
 use crate::options::Extent;
 use crate::validate::Validated;
-use hexdel_geom::{DVec2, orient2d};
+use hexdel_geom::{DVec2, Pslg, Region, orient2d};
 
 /// A hole or region that changes nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +111,40 @@ impl Validated {
     }
 }
 
+impl Validated {
+    /// The same graph with no effect of holes and regions outside of the extent. Where no segments
+    /// part them from it, as along the convex hull, they would be seeds of what is inside.
+    ///
+    /// Holes are dropped, regions keep their numbers and go beyond everything.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the graph.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use hexdel_geom::{DVec2, Pslg};
+    /// use hexdel_pslg::{Extent, validate};
+    ///
+    /// let mut triangle = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::Y]);
+    /// triangle.holes = vec![DVec2::new(0.9, 0.9), DVec2::new(0.2, 0.2)];
+    /// let confined = validate(&triangle)?.confined(Extent::Hull);
+    /// assert_eq!(confined.pslg().holes, [DVec2::new(0.2, 0.2)]);
+    /// # Ok::<(), hexdel_pslg::ValidateError>(())
+    /// ```
+    #[must_use]
+    pub fn confined(mut self, extent: Extent) -> Self {
+        // What is outside of all segments is parted from it, and a hexagon has no outside.
+        if extent != Extent::Hull || self.pslg.holes.is_empty() && self.pslg.regions.is_empty() {
+            return self;
+        }
+        let (holes, regions) = Search::new(&self, extent).confined();
+        (self.pslg.holes, self.pslg.regions) = (holes, regions);
+        self
+    }
+}
+
 /// How large the parts of the plane are that a mesh covers.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -148,7 +182,7 @@ impl Validated {
         let plane = &self.plane;
         let mut areas = Areas { of_region: vec![0.0; self.pslg.regions.len()], of_none: 0.0 };
         let carved = reached(plane, &self.pslg.holes, extent == Extent::Inside);
-        let regions = Locator::of(self).regions(self);
+        let regions = Locator::of(self).regions(&self.pslg.regions);
         for t in plane.alive().filter(|&t| !carved[t as usize]) {
             let [a, b, c] = plane.corners(t);
             let area = 0.5 * (b - a).perp_dot(c - a);
@@ -179,15 +213,34 @@ impl<'a> Search<'a> {
         let locator = Locator::of(input);
         let sites = input.points.sites();
         let hull = if extent == Extent::Hull { convex_hull(sites) } else { Vec::new() };
-        Self {
+        let mut search = Self {
             input,
-            regions: locator.regions(input),
             locator,
             extent,
+            regions: Vec::new(),
             outside: reached(&input.plane, &[], true),
-            in_hole: reached(&input.plane, &input.pslg.holes, false),
+            in_hole: Vec::new(),
             hull: hull.into_iter().map(|site| sites[site as usize]).collect(),
+        };
+        let (holes, regions) = search.confined();
+        search.in_hole = reached(&input.plane, &holes, false);
+        search.regions = search.locator.regions(&regions);
+        search
+    }
+
+    /// The holes in the hull, if that is the extent, and the regions: those outside beyond everything.
+    fn confined(&self) -> (Vec<DVec2>, Vec<Region>) {
+        let Pslg { mut holes, mut regions, .. } = self.input.pslg.clone();
+        if self.extent == Extent::Hull {
+            let is_outside = |p: DVec2| self.triangle(p).is_ok_and(|t| self.is_outside(p, t));
+            let [low, high] = [0, 2].map(|corner| self.input.plane.at(corner));
+            holes.retain(|&hole| !is_outside(hole));
+            regions
+                .iter_mut()
+                .filter(|region| is_outside(region.point))
+                .for_each(|region| region.point = high + (high - low));
         }
+        (holes, regions)
     }
 
     /// The triangle of a seed, if it is not on a segment.

@@ -137,3 +137,22 @@ fn divided_borders_are_counted_in_words_that_fit() {
         assert_eq!(told(&text), expected);
     }
 }
+
+/// Found by fuzzing: beside the hull, which no segments part from its outside, holes and regions were said
+/// to be unused, and had the mesh made as if they were not.
+#[test]
+fn seeds_beside_the_hull_change_nothing() {
+    let mut graph =
+        Pslg::from_points([(7.0, 7.0), (0.0, 0.0), (7.375, -0.5), (7.4375, 0.0)].map(DVec2::from).to_vec());
+    graph.segments = vec![[3, 1]];
+    let mesher = Mesher::new().domain(Domain::Hull);
+    let without = mesher.triangulate_pslg(&graph).unwrap();
+    graph.holes = vec![DVec2::new(7.3, 7.1)];
+    let region = |x, y, max_area| Region { point: DVec2::new(x, y), attribute: 3.0, max_area };
+    graph.regions = vec![region(7.1, 7.3, Some(0.1)), region(6.0, 1.0, None)];
+    let made = mesher.triangulate_pslg(&graph).unwrap();
+    assert!(made.holds() && made.warnings.len() == 2, "{:?} {:?}", made.failed, made.warnings);
+    assert_eq!(made.mesh, without.mesh);
+    assert!(made.region_of_triangle.contains(&Some(1)) && !made.region_of_triangle.contains(&Some(0)));
+    assert_eq!((made.graph.holes.len(), made.graph.regions.len()), (1, 2));
+}

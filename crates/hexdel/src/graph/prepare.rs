@@ -25,7 +25,7 @@ pub struct PreparedPslg {
 /// A graph on its way to a mesh.
 pub(super) struct Prepared {
     pub(super) repaired: Repaired,
-    /// With the box, if that is the domain.
+    /// With the box, if that is the domain, and without seeds outside of the hull, if that is.
     pub(super) validated: Validated,
     pub(super) domain: Domain,
     pub(super) warnings: Vec<Warning>,
@@ -70,6 +70,7 @@ impl Mesher {
         let (validated, mut warnings) = self.seeded(validated?, domain, &repaired, pslg)?;
         warnings.extend(division);
         repaired.seed(validated.pslg());
+        let validated = validated.confined(domain.extent());
         Ok(Prepared { repaired, validated, domain, warnings })
     }
 
