@@ -1,16 +1,17 @@
 //! Meshes that are small enough to read, on record as a whole: every vertex with its input
 //! point, every triangle. A change of a method shows here as what it is.
 //!
-//! Of templates and of the simple method there are all fixtures whose meshes are small. Compact
-//! meshes change whenever the optimiser does: they are on record by figures and a hash.
-//! `cargo xtask regen` renews the records, `cargo xtask regen --check` holds them.
+//! Of templates and of the simple method there are all fixtures whose meshes are small, of
+//! compact meshes some of two to seven points, and of the paper's way with segments a few
+//! graphs. `cargo xtask regen` renews the records, `cargo xtask regen --check` holds them.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;
 
 use hexdel::geom::DVec2;
-use hexdel::{Mesher, Method, TriMesh, VertexId};
+use hexdel::pslg::{self, Extent, Options, SegmentMethod, validate};
+use hexdel::{Mesher, Method, Pslg, TriMesh, Unwatched, VertexId};
 use std::fmt::Write as _;
 
 /// Larger meshes are on record elsewhere, by their figures and a hash.
@@ -24,6 +25,62 @@ fn whole_templates() {
 #[test]
 fn whole_simple() {
     hold(Method::Simple, "simple");
+}
+
+/// Points by their coordinates.
+fn points(coordinates: &[(f64, f64)]) -> Vec<DVec2> {
+    coordinates.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
+}
+
+#[test]
+fn whole_compact() {
+    const SEVEN: [(f64, f64); 7] =
+        [(0.0, 0.0), (2.0, 0.0), (1.0, 1.75), (-1.0, 1.75), (-2.0, 0.0), (-1.0, -1.75), (1.0, -1.75)];
+    const SQUARE: [(f64, f64); 5] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.5)];
+    const LINE: [(f64, f64); 3] = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)];
+    let _bound = settings().bind_to_scope();
+    let inputs: [(&str, &[(f64, f64)]); 7] = [
+        ("two", &LINE[..2]),
+        ("three_on_a_line", &LINE),
+        ("triangle", &[(0.0, 0.0), (4.0, 0.0), (1.0, 3.0)]),
+        ("square", &SQUARE[..4]),
+        ("square_and_centre", &SQUARE),
+        ("hexagon", &SEVEN[1..]),
+        ("hexagon_and_centre", &SEVEN),
+    ];
+    for (name, coordinates) in inputs {
+        let made = Mesher::new().triangulate(&points(coordinates)).unwrap();
+        common::hold(&made, &points(coordinates));
+        let text = format!("{coordinates:?}, compact\n{}", whole(&made.mesh, &made.input_of_vertex()));
+        insta::assert_snapshot!(format!("compact-{name}"), text);
+    }
+}
+
+#[test]
+fn whole_by_the_papers_way_with_segments() {
+    let _bound = settings().bind_to_scope();
+    let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    let around = [[0, 1], [1, 2], [2, 3], [3, 0]];
+    let inputs: [(&str, &[(f64, f64)], &[[u32; 2]], Extent); 5] = [
+        ("segment", &square[..2], &around[..1], Extent::Hexagon),
+        ("triangle", &[(0.0, 0.0), (4.0, 0.0), (1.0, 3.0)], &[[0, 1], [1, 2], [2, 0]], Extent::Inside),
+        ("square", &square, &around, Extent::Inside),
+        ("square_divided", &square, &[[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], Extent::Inside),
+        ("right_triangle", &[(0.0, 0.0), (4.0, 0.0), (0.0, 3.0)], &[[0, 1], [1, 2], [2, 0]], Extent::Inside),
+    ];
+    for (name, coordinates, segments, extent) in inputs {
+        let mut graph = Pslg::from_points(points(coordinates));
+        graph.segments = segments.to_vec();
+        let options = Options::new().method(SegmentMethod::Paper).extent(extent);
+        let made = pslg::mesh(&validate(&graph).unwrap(), &options, &Unwatched).unwrap();
+        let mut text = format!("{coordinates:?}, segments {segments:?}, {extent:?}, the paper's way\n");
+        text += &whole(&made.mesh, &made.point_of_vertex);
+        for edge in made.edges.iter().filter(|edge| edge.segment.is_some()) {
+            let [a, b] = edge.ends.map(VertexId::index);
+            let _ = writeln!(text, "e {a} {b} segment {}", edge.segment.unwrap());
+        }
+        insta::assert_snapshot!(format!("paper-{name}"), text);
+    }
 }
 
 /// Holds all meshes of a method that are small enough.
