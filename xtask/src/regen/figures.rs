@@ -5,7 +5,7 @@
 //! (Fig. 8 and 9). Those grids are made by hand, so every figure's mesh is
 //! certified before it is drawn.
 
-use super::Files;
+use super::{Files, gallery};
 use crate::prove;
 use hexdel::classify::hexagons::hexagons;
 use hexdel::classify::{Domain, Occupant, Relocation, extract};
@@ -92,14 +92,9 @@ fn of_segments(root: &Path) -> Figures {
     let letters = read_points(root.join("fixtures/graphs/letters.poly"))?;
     let close_up = [DVec2::new(3.6, 0.9), DVec2::new(4.7, 1.8)];
     let drawn = [
-        (
-            "fig-14-two-segments.svg",
-            &two,
-            Extent::Hexagon,
-            Some([DVec2::new(-0.5, -0.4), DVec2::new(1.9, 1.3)]),
-        ),
-        ("fig-15-letters-paper.svg", &letters, Extent::Inside, None),
-        ("fig-15-letters-paper-close-up.svg", &letters, Extent::Inside, Some(close_up)),
+        ("fig-14-two-segments", &two, Extent::Hexagon, Some([DVec2::new(-0.5, -0.4), DVec2::new(1.9, 1.3)])),
+        ("fig-15-letters-paper", &letters, Extent::Inside, None),
+        ("fig-15-letters-paper-close-up", &letters, Extent::Inside, Some(close_up)),
     ];
     let draw = |(name, graph, extent, zoom): (&str, &Pslg, Extent, Option<[DVec2; 2]>)| {
         let options = Options::new().method(SegmentMethod::Paper).extent(extent);
@@ -111,9 +106,10 @@ fn of_segments(root: &Path) -> Figures {
         picture.bounds_deg = [AngleBounds::EXTENDED.min_deg(), AngleBounds::EXTENDED.max_deg()];
         picture.zoom = zoom;
         let view = MeshView::new(&made.mesh).with_marked_edges(&edges).with_picture(picture);
-        let mut svg = Vec::new();
-        write_mesh_to(&mut svg, MeshFormat::Svg, &view, name)?;
-        Ok((name.to_owned(), svg))
+        let (format, extension) = gallery::format_of(made.mesh.triangles.len());
+        let mut bytes = Vec::new();
+        write_mesh_to(&mut bytes, format, &view, name)?;
+        Ok((format!("{name}.{extension}"), bytes))
     };
     drawn.into_iter().map(draw).collect()
 }

@@ -152,6 +152,11 @@ More pictures: triangles by their largest angle, region, level or class, the hex
 see `hexdel plot --help`.
 ";
 
+/// What a mesh of so many triangles is drawn in, and what its file's name ends in.
+pub(super) fn format_of(triangles: usize) -> (MeshFormat, &'static str) {
+    if triangles <= MOST_IN_SVG { (MeshFormat::Svg, "svg") } else { (MeshFormat::Png, "png") }
+}
+
 /// Pictures side by side, with their figures.
 fn section(document: &mut String, input: &Input, shown: &[Shown]) -> std::fmt::Result {
     let Input { title, text, .. } = input;
@@ -207,8 +212,7 @@ fn shown(
     certificate: &Certificate,
     zoom: Option<[DVec2; 2]>,
 ) -> Result<Shown, Fault> {
-    let in_svg = view.mesh.triangles.len() <= MOST_IN_SVG;
-    let (format, extension) = if in_svg { (MeshFormat::Svg, "svg") } else { (MeshFormat::Png, "png") };
+    let (format, extension) = format_of(view.mesh.triangles.len());
     let mut picture = Picture::default();
     picture.size_px = SIZE_PX;
     picture.bounds_deg = [certificate.bounds.min_deg(), certificate.bounds.max_deg()];
