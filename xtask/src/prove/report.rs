@@ -7,6 +7,7 @@ use super::search::Witness;
 use hexdel_classify::Classes;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::ops::RangeInclusive;
 
 /// The document's text, with places for tables.
 const TEMPLATE: &str = include_str!("proof.template.md");
@@ -25,6 +26,9 @@ pub(crate) fn summary(proof: &Proof) -> String {
     for r in &proof.regions {
         let (low, high) = (r.least.angle_deg, r.greatest.angle_deg);
         let _ = writeln!(out, "{:>7} cases, {low:.4} .. {high:.4}  {}", r.cases, r.name);
+    }
+    for c in &proof.closures {
+        let _ = writeln!(out, "rows beyond the hull, {}: {:?}", c.name, c.by_rows);
     }
     for t in &proof.levels {
         let _ = writeln!(out, "finest level {:>2}, bound {:>2}  {}", t.finest, t.bound, t.name);
@@ -127,6 +131,7 @@ pub(crate) fn files(proof: &Proof, weaker: &Proof) -> BTreeMap<String, Vec<u8>> 
         )
         .replace("{{shortest}}", &format!("{:.4}", shortest(proof)))
         .replace("{{ending}}", &format!("{} views", proof.ending.clone().unwrap_or_default()))
+        .replace("{{closures}}", &closures(proof))
         .replace("{{levels}}", &levels(proof))
         .replace("{{counterexamples}}", &weaker_table(weaker, &mut figures));
     let mut files = figures.files;
@@ -212,6 +217,20 @@ fn regions(proof: &Proof, figures: &mut Figures) -> String {
             "| {} | {} | {low:.4} .. {high:.4} | {:.4} | {figure} |",
             r.name, r.cases, r.shortest
         );
+    }
+    out
+}
+
+fn closures(proof: &Proof) -> String {
+    let mut out = String::from(
+        "| what is subdivided to begin with | sets | closed within their hull | one row beyond | two | more |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    for closures in &proof.closures {
+        let sum = |of: RangeInclusive<i64>| closures.by_rows.range(of).map(|(_, n)| n).sum::<u64>();
+        let name = closures.name;
+        let [all, none, one, two, more] = [0..=i64::MAX, 0..=0, 1..=1, 2..=2, 3..=i64::MAX].map(sum);
+        let _ = writeln!(out, "| {name} | {all} | {none} | {one} | {two} | {more} |");
     }
     out
 }

@@ -118,7 +118,10 @@ fn fault(what: &str, classes: &Classes) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hexdel_classify::View;
     use hexdel_grid::Window;
+    use hexdel_refine::extended::TopWithFins;
+    use hexdel_refine::{Rule, Situation};
 
     #[test]
     fn a_missing_triangle_and_one_too_many_are_found() {
@@ -140,5 +143,20 @@ mod tests {
             assert_eq!(run, CENTRE.ring(1).collect());
             check(Unit::Star { middle }, &classes).unwrap();
         }
+    }
+
+    #[test]
+    fn two_runs_at_one_triangle_are_found() {
+        // Two three-finned hexagons side by side, fins outwards: each is the other's top.
+        let (x, y) = (CENTRE, CENTRE.neighbour(Direction::new(0)));
+        let fins = [2, 3, 4].map(|d| x.neighbour(Direction::new(d)));
+        let others = [5, 0, 1].map(|d| y.neighbour(Direction::new(d)));
+        let classes = Classes::of(fins.into_iter().chain(others).collect());
+        assert_eq!([x, y].map(|at| top(&classes, at)), [Some(y), Some(x)]);
+        assert!(Unit::Triangle { up: true }.anchors().starts_with(&[x, y]));
+        assert!(check(Unit::Triangle { up: true }, &classes).unwrap_err().contains("two runs"));
+        // No legal pattern has it: a top has no fins.
+        let situation = Situation::of(View { subdivided: classes.subdivided, ..View::default() });
+        assert!(TopWithFins.must_subdivide(&situation).contains(x));
     }
 }
