@@ -1,32 +1,49 @@
 //! Brings a mesh or points to another format, by the names of the files:
 //! `cargo run -p hexdel-io --example convert -- IN OUT`. Without names, it takes a fixture through
 //! several formats and back.
-#![allow(clippy::print_stdout, reason = "what an example writes is its result")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "what an example writes is its result")]
 
 use hexdel_io::{
-    MeshFormat, read_mesh_data, read_mesh_from, read_points, write_mesh, write_mesh_to, write_points,
+    MeshFormat, PointFormat, read_mesh_data, read_mesh_from, read_points, write_mesh, write_mesh_to,
+    write_points,
 };
 use std::error::Error;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
     let paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    match paths.as_slice() {
+    let done = match paths.as_slice() {
         [from, to] => convert(from, to),
         [] => tour(),
         _ => Err("give two files, or none".into()),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
     }
 }
 
 /// A mesh if the file holds one, points or a graph otherwise.
 fn convert(from: &Path, to: &Path) -> Result<(), Box<dyn Error>> {
-    if let Ok(data) = read_mesh_data(from) {
-        write_mesh(to, &data.view())?;
-        println!("{} vertices, {} triangles", data.mesh.vertices.len(), data.mesh.triangles.len());
-    } else {
-        let graph = read_points(from)?;
-        write_points(to, &graph)?;
-        println!("{} points, {} segments", graph.points.len(), graph.segments.len());
+    match read_mesh_data(from) {
+        Ok(data) => {
+            write_mesh(to, &data.view())?;
+            println!("{} vertices, {} triangles", data.mesh.vertices.len(), data.mesh.triangles.len());
+        }
+        Err(no_mesh) if PointFormat::from_path(from).is_some() => {
+            // Some names stand for meshes and for points.
+            let both = MeshFormat::from_path(from).is_some_and(MeshFormat::is_read);
+            let graph = read_points(from).map_err(|error| {
+                if both { format!("no mesh: {no_mesh}; no points: {error}") } else { error.to_string() }
+            })?;
+            write_points(to, &graph)?;
+            println!("{} points, {} segments", graph.points.len(), graph.segments.len());
+        }
+        Err(error) => return Err(error.into()),
     }
     Ok(())
 }

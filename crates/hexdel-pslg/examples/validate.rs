@@ -1,19 +1,30 @@
 //! Says what is wrong with a graph, repairs it and meshes it:
 //! `cargo run --release -p hexdel-pslg --example validate [FILE.poly] [TOLERANCE]`. Without a file,
 //! a fence that crosses a field, drawn by hand.
-#![allow(clippy::print_stdout, reason = "what an example writes is its result")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "what an example writes is its result")]
 
 use hexdel_geom::{DVec2, Pslg, Unwatched};
 use hexdel_pslg::{Options, mesh, repair, validate, violations};
 use std::error::Error;
+use std::process::ExitCode;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1);
     let graph = args.next().map_or_else(|| Ok(drawn()), hexdel_io::read_points)?;
     let tolerance = args.next().map_or(Ok(1e-6), |text| text.parse())?;
 
     let found = violations(&graph);
-    println!("{} points, {} segments, {} faults", graph.points.len(), graph.segments.len(), found.len());
+    println!("{} points, {} segments, faults: {}", graph.points.len(), graph.segments.len(), found.len());
     for fault in &found {
         println!("  {fault}");
     }
