@@ -137,6 +137,24 @@ mod tests {
     }
 
     #[test]
+    fn crates_that_stand_alone_name_an_example_that_there_is() {
+        let folder = root().join("crates");
+        let mut found = Vec::new();
+        for (name, _) in crates(&root()).unwrap() {
+            let Ok(readme) = std::fs::read_to_string(folder.join(&name).join("README.md")) else { continue };
+            let command = readme.lines().find(|line| line.starts_with("`cargo run ")).unwrap();
+            let words: Vec<&str> = command.trim_matches('`').split([' ', '`']).collect();
+            let after = |word: &str| words[words.iter().position(|w| *w == word).unwrap() + 1];
+            assert_eq!(after("-p"), name);
+            let example = folder.join(&name).join("examples").join(after("--example"));
+            assert!(example.with_extension("rs").exists(), "{command}");
+            found.push(name);
+        }
+        let alone = ["grid", "classify", "refine", "optimize", "grow", "pslg", "io"];
+        assert!(alone.iter().all(|name| found.contains(&format!("hexdel-{name}"))), "{found:?}");
+    }
+
+    #[test]
     fn a_dependency_that_points_upwards_is_a_fault() {
         assert!(check_layers("hexdel-grid", &["hexdel-refine".into()])[0].contains("must not"));
         assert!(check_layers("hexdel-grid", &["hexdel-geom".into()]).is_empty());

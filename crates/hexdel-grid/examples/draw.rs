@@ -20,16 +20,16 @@ fn main() {
         }
     }
 
-    println!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-3 -3 6 6\" width=\"720\" height=\"720\">");
-    let leaves = leaves(&grid);
-    for &at in &leaves {
+    println!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-4 -4 8 8\" width=\"720\" height=\"720\">");
+    // Coarse ones first: what the finer ones leave of a subdivided hexagon is its semi-hexagons.
+    for at in standing(&grid) {
         let (centre, size) = (grid.lattice().position(at), grid.lattice().spacing(at.level));
         let corner = |i: i32| {
             let p = centre + DVec2::from_angle(f64::from(30 + 60 * i).to_radians()) * (size / 3_f64.sqrt());
             format!("{:.4},{:.4}", p.x, -p.y)
         };
         let points: Vec<String> = (0..6).map(corner).collect();
-        let shade = 100 - 8 * u32::from(at.level);
+        let shade = 100 - 8 * u32::from(at.level + u8::from(grid.is_subdivided(at)));
         println!(
             "<polygon points=\"{}\" fill=\"hsl(210 60% {shade}%)\" stroke=\"#475569\" stroke-width=\"{:.4}\"/>",
             points.join(" "),
@@ -37,27 +37,25 @@ fn main() {
         );
     }
     println!("</svg>");
+    let leaves: Vec<Address> = standing(&grid).into_iter().filter(|&at| !grid.is_subdivided(at)).collect();
     let finer = |at: &&Address| {
         Direction::ALL.iter().any(|&d| matches!(grid.neighbour(**at, d), Some(Neighbour::Finer(_))))
     };
     eprintln!("{} leaves, {} of them beside finer ones", leaves.len(), leaves.iter().filter(finer).count());
 }
 
-/// All leaves within three steps of level 0, each once.
-fn leaves(grid: &Grid) -> BTreeSet<Address> {
+/// All full hexagons within three steps of level 0, each once, by level.
+fn standing(grid: &Grid) -> BTreeSet<Address> {
     let mut waiting: Vec<Address> = Hex::ORIGIN.disc(3).map(|hex| Address::new(0, hex)).collect();
-    let mut leaves = BTreeSet::new();
+    let mut standing = BTreeSet::new();
     while let Some(at) = waiting.pop() {
-        match grid.kind(at) {
-            HexKind::Leaf => {
-                leaves.insert(at);
-            }
-            HexKind::Subdivided => {
-                // Its scaled centre, and what has been joined at its sides.
-                waiting.extend(at.hex.scaled().disc(1).map(|hex| Address::new(at.level + 1, hex)));
-            }
-            HexKind::Semi { .. } | HexKind::Absent => {}
+        if !matches!(grid.kind(at), HexKind::Leaf | HexKind::Subdivided) || !standing.insert(at) {
+            continue;
+        }
+        if grid.is_subdivided(at) {
+            // Its scaled centre, and what has been joined at its sides.
+            waiting.extend(at.hex.scaled().disc(1).map(|hex| Address::new(at.level + 1, hex)));
         }
     }
-    leaves
+    standing
 }
