@@ -27,19 +27,24 @@ fn whole_simple() {
     hold(Method::Simple, "simple");
 }
 
+type Place = (f64, f64);
+
+/// A graph by its name, points and segments, and what of it is meshed.
+type Input<'a> = (&'a str, &'a [Place], &'a [[u32; 2]], Extent);
+
 /// Points by their coordinates.
-fn points(coordinates: &[(f64, f64)]) -> Vec<DVec2> {
+fn points(coordinates: &[Place]) -> Vec<DVec2> {
     coordinates.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
 }
 
 #[test]
 fn whole_compact() {
-    const SEVEN: [(f64, f64); 7] =
+    const SEVEN: [Place; 7] =
         [(0.0, 0.0), (2.0, 0.0), (1.0, 1.75), (-1.0, 1.75), (-2.0, 0.0), (-1.0, -1.75), (1.0, -1.75)];
-    const SQUARE: [(f64, f64); 5] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.5)];
-    const LINE: [(f64, f64); 3] = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)];
+    const SQUARE: [Place; 5] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.5)];
+    const LINE: [Place; 3] = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)];
     let _bound = settings().bind_to_scope();
-    let inputs: [(&str, &[(f64, f64)]); 7] = [
+    let inputs: [(&str, &[Place]); 7] = [
         ("two", &LINE[..2]),
         ("three_on_a_line", &LINE),
         ("triangle", &[(0.0, 0.0), (4.0, 0.0), (1.0, 3.0)]),
@@ -61,7 +66,7 @@ fn whole_by_the_papers_way_with_segments() {
     let _bound = settings().bind_to_scope();
     let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
     let around = [[0, 1], [1, 2], [2, 3], [3, 0]];
-    let inputs: [(&str, &[(f64, f64)], &[[u32; 2]], Extent); 5] = [
+    let inputs: [Input<'_>; 5] = [
         ("segment", &square[..2], &around[..1], Extent::Hexagon),
         ("triangle", &[(0.0, 0.0), (4.0, 0.0), (1.0, 3.0)], &[[0, 1], [1, 2], [2, 0]], Extent::Inside),
         ("square", &square, &around, Extent::Inside),

@@ -52,8 +52,6 @@ impl fmt::Display for Fault {
     }
 }
 
-impl std::error::Error for Fault {}
-
 /// Checks the three facts; with `stride` 1 all patterns, otherwise every so
 /// manieth.
 pub(crate) fn check(rules: &RuleSet, stride: usize) -> Result<Checked, Fault> {

@@ -51,7 +51,7 @@ pub(crate) struct Proof {
     lemmas: Result<lemmas::Checked, lemmas::Fault>,
     support: Result<support::Checked, lemmas::Fault>,
     ending: Result<u64, lemmas::Fault>,
-    closures: Vec<ending::Closures>,
+    closures: Result<Vec<ending::Closures>, lemmas::Fault>,
     regions: Vec<regions::Region>,
     levels: Vec<levels::Trial>,
 }
@@ -59,10 +59,10 @@ pub(crate) struct Proof {
 impl Proof {
     /// Enumerates; `reduced`, one unit of each kind and a sample of the
     /// patterns for the facts that separate levels and points.
-    pub(crate) fn make(rules: RuleSet, reduced: bool) -> Result<Self, Box<dyn std::error::Error>> {
+    pub(crate) fn make(rules: &RuleSet, reduced: bool) -> Result<Self, Box<dyn std::error::Error>> {
         let stride = if reduced { 7 } else { 1 };
-        let lemmas = lemmas::check(&rules, stride);
-        let (support, ending) = (support::check(&rules, stride), ending::check(&rules));
+        let lemmas = lemmas::check(rules, stride);
+        let (support, ending) = (support::check(rules, stride), ending::check(rules));
         let fires = Fires::new(rules.clone());
         let units = if reduced { Unit::representatives() } else { Unit::all() };
         let mut found = Found::default();
@@ -74,7 +74,7 @@ impl Proof {
             found.merge(part);
         }
         let levels = if reduced { Vec::new() } else { levels::trials()? };
-        let closures = if reduced { Vec::new() } else { ending::closures(&rules)? };
+        let closures = if reduced { Ok(Vec::new()) } else { ending::closures(rules) };
         Ok(Self { found, lemmas, support, ending, closures, regions: regions::all(), levels })
     }
 
@@ -84,6 +84,7 @@ impl Proof {
             && self.lemmas.is_ok()
             && self.support.is_ok()
             && self.ending.is_ok()
+            && self.closures.is_ok()
             && self.found.shortest.is_some_and(is_long_enough)
             && self.regions.iter().all(|r| r.holds)
             && self.levels.iter().all(|t| t.finest <= t.bound)
@@ -107,7 +108,7 @@ pub(crate) fn run(without: &[String], reduced: bool) -> Outcome {
         return Err(format!("there is no rule \"{name}\"; the rules are {names:?}").into());
     }
     let rules = without.iter().fold(all, |rules, name| rules.without(name));
-    let proof = Proof::make(rules, reduced)?;
+    let proof = Proof::make(&rules, reduced)?;
     print!("{}", report::summary(&proof));
     if !proof.holds() {
         return Err("the bounds do not hold".into());
@@ -145,7 +146,7 @@ pub(crate) fn paper_figures() -> Result<Files, Box<dyn std::error::Error>> {
 
 /// `docs/proof.md` and its figures, by their paths below `docs`.
 pub(crate) fn files() -> Result<Files, Box<dyn std::error::Error>> {
-    let proof = Proof::make(RuleSet::extended(), false)?;
+    let proof = Proof::make(&RuleSet::extended(), false)?;
     if !proof.holds() {
         return Err(format!("the bounds do not hold\n{}", report::summary(&proof)).into());
     }
@@ -154,7 +155,7 @@ pub(crate) fn files() -> Result<Files, Box<dyn std::error::Error>> {
 
 fn document(proof: &Proof) -> Result<Files, Box<dyn std::error::Error>> {
     // What the paper's rules leave open is part of the document.
-    let weaker = Proof::make(RuleSet::extended().without("triangle").without("top with fins"), true)?;
+    let weaker = Proof::make(&RuleSet::extended().without("triangle").without("top with fins"), true)?;
     Ok(report::files(proof, &weaker))
 }
 
@@ -165,7 +166,7 @@ mod tests {
     /// All of the enumeration, which must be what the document and its figures say.
     #[test]
     fn the_rules_keep_the_bounds() {
-        let proof = Proof::make(RuleSet::extended(), false).unwrap();
+        let proof = Proof::make(&RuleSet::extended(), false).unwrap();
         assert!(proof.holds(), "{}", report::summary(&proof));
         let least = proof.found.kinds.values().filter_map(|k| k.least).map(|w| w.angle_deg);
         assert!((least.fold(180.0, f64::min) - 43.897_886_248_013_98).abs() < 1e-9);

@@ -27,7 +27,7 @@ pub(crate) fn summary(proof: &Proof) -> String {
         let (low, high) = (r.least.angle_deg, r.greatest.angle_deg);
         let _ = writeln!(out, "{:>7} cases, {low:.4} .. {high:.4}  {}", r.cases, r.name);
     }
-    for c in &proof.closures {
+    for c in proof.closures.iter().flatten() {
         let _ = writeln!(out, "rows beyond the hull, {}: {:?}", c.name, c.by_rows);
     }
     for t in &proof.levels {
@@ -45,6 +45,7 @@ pub(crate) fn summary(proof: &Proof) -> String {
             .clone()
             .map(|c| format!("what demands rest on: {} patterns, classes: {}", c.demands, c.classes)),
         proof.ending.clone().map(|views| format!("views of a lattice hexagon: {views}")),
+        proof.closures.clone().map(|kinds| format!("kinds of sets that are closed: {}", kinds.len())),
     ];
     for line in lines {
         let _ = writeln!(out, "{}", line.unwrap_or_else(|fault| format!("NOT so: {fault}")));
@@ -226,7 +227,7 @@ fn closures(proof: &Proof) -> String {
         "| what is subdivided to begin with | sets | closed within their hull | one row beyond | two | more |\n\
          |---|---|---|---|---|---|\n",
     );
-    for closures in &proof.closures {
+    for closures in proof.closures.iter().flatten() {
         let sum = |of: RangeInclusive<i64>| closures.by_rows.range(of).map(|(_, n)| n).sum::<u64>();
         let name = closures.name;
         let [all, none, one, two, more] = [0..=i64::MAX, 0..=0, 1..=1, 2..=2, 3..=i64::MAX].map(sum);
