@@ -59,8 +59,7 @@ def by_elements(mesh: hexdel.Mesh) -> Floats:
     load = skfem.LinearForm(lambda v, w: 3 * np.sin(2 * w.x[0]) * np.cosh(w.x[1]) * v)
     values = exact(mesh.vertices)
     condensed = skfem.condense(stiffness.assemble(basis), load.assemble(basis), x=values, D=np.unique(mesh.boundary))
-    solution: Floats = skfem.solve(*condensed)
-    return solution
+    return np.asarray(skfem.solve(*condensed), dtype=np.float64)
 
 
 def error(mesh: hexdel.Mesh, values: Floats) -> float:

@@ -377,7 +377,7 @@ def _warn(data: dict[str, Any]) -> None:
     inputs = data["vertex_of_input"]
     repairs = data.get("repairs", ("", []))[1]
     inside = inputs[inputs >= 0]
-    twice = len(inside) - len(np.unique(inside))
+    twice = len(inside) - np.count_nonzero(data["input_of_vertex"] >= 0)
     if twice and not repairs:
         notes.append(f"{twice} points are duplicates of others: they share a vertex")
     outside = np.flatnonzero(inputs < 0)

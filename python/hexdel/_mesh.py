@@ -43,9 +43,9 @@ class Quality(NamedTuple):
         if len(self.area) == 0:
             return "Quality of no triangles"
         return (
-            f"Quality of {len(self.area)} triangles: angles {self.min_angle.min():.4f} to "
-            f"{self.max_angle.max():.4f} degrees, areas {self.area.min():.6g} to {self.area.max():.6g}, "
-            f"aspect up to {self.aspect.max():.4f}"
+            f"Quality of {len(self.area)} triangles: angles {np.min(self.min_angle):.4f} to "
+            f"{np.max(self.max_angle):.4f} degrees, areas {np.min(self.area):.6g} to {np.max(self.area):.6g}, "
+            f"aspect up to {np.max(self.aspect):.4f}"
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _calls, _hexdel, _options
 from ._arrays import Floats, frozen
-from ._errors import OptionError, SessionError
+from ._errors import HexdelWarning, OptionError, SessionError
 from ._mesh import Mesh
 from ._options import DomainName, Effort, Method
 from ._size import SizeLike
@@ -31,6 +32,8 @@ class Change(NamedTuple):
         Serial numbers, and corners as serial numbers of vertices, shape (k, 3).
     remeshed : bool
         Whether the whole was meshed anew.
+    domain : tuple or None
+        Centre and circumradius of the domain, if the call has changed it.
     """
 
     points: Numbers
@@ -40,6 +43,7 @@ class Change(NamedTuple):
     triangles_removed: Numbers
     triangles_added: tuple[Numbers, Numbers]
     remeshed: bool
+    domain: tuple[tuple[float, float], float] | None
 
     def __repr__(self) -> str:
         return (
@@ -66,6 +70,15 @@ class Session:
         The hexagonal domain of a session that begins without points.
     method, effort, min_angle, max_angle, size, gradation, max_area, domain, threads : optional
         As of `mesh_pslg`. Sessions of 'templates' know no segments.
+
+    Warns
+    -----
+    HexdelWarning
+        Holes and regions that have no effect.
+
+    See Also
+    --------
+    Session.begin : a session whose domain grows by itself.
 
     Examples
     --------
@@ -127,6 +140,61 @@ class Session:
             raw["radius"] = _options.number(radius, "radius", least=0.0, open_=True)
             graph = _calls._graph(places, segments, holes, regions, markers)
             self._raw = _hexdel.RawSession.of_graph(graph, raw)
+        notes = [*_unused(segments, holes, regions), *self._raw.warnings()]
+        if notes:
+            warnings.warn("; ".join(notes), HexdelWarning, stacklevel=2)
+
+    @classmethod
+    def begin(
+        cls,
+        points: ArrayLike,
+        *,
+        method: Method | None = None,
+        effort: Effort | None = None,
+        min_angle: float | None = None,
+        max_angle: float | None = None,
+        size: SizeLike | None = None,
+        gradation: float | None = None,
+        threads: int | None = None,
+    ) -> tuple[Session, Change]:
+        """A session in a hexagon that follows its points: it grows for those outside of it.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 2) or (2,)
+            Points to begin with, one at least; they get the numbers 0 to n - 1.
+        method, effort, min_angle, max_angle, size, gradation, threads : optional
+            As of `mesh`.
+
+        Returns
+        -------
+        Session
+        Change
+            The whole mesh, as added.
+
+        Examples
+        --------
+        >>> import hexdel
+        >>> session, first = hexdel.Session.begin([(5, 5)])
+        >>> first.points.tolist(), len(first.triangles_added[0]) == len(session.mesh())
+        ([0], True)
+        >>> change = session.insert((500, 5))
+        >>> change.remeshed, change.domain[1] > 495, session.mesh().holds
+        (True, True, True)
+        """
+        places = _rows(points)
+        raw = _options.raw(
+            places,
+            method=method,
+            effort=effort,
+            min_angle=min_angle,
+            max_angle=max_angle,
+            size=size,
+            gradation=gradation,
+            threads=threads,
+        )
+        session, change = _hexdel.RawSession.begin(places, raw)
+        return cls._of(session), _changed(change)
 
     @classmethod
     def loads(cls, text: str, *, threads: int | None = None) -> Session:
@@ -171,12 +239,10 @@ class Session:
         Raises
         ------
         SessionError, InputError
-            A point outside, there already, or too close to another.
+            A point outside of a domain that does not grow, there already, or too close
+            to another.
         """
-        places = _arrays.floats(points, "points")
-        if places.shape == (2,):
-            places = places[None]
-        return _changed(self._raw.insert(_arrays.points(places)))
+        return _changed(self._raw.insert(_rows(points)))
 
     def remove(self, numbers: ArrayLike) -> Change:
         """Takes points out by their numbers, all or none."""
@@ -255,11 +321,25 @@ class Session:
         return Session.loads, (self.dumps(),)
 
 
+def _rows(points: ArrayLike) -> Floats:
+    """Points, or one point."""
+    places = _arrays.floats(points, "points")
+    return _arrays.points(places[None] if places.shape == (2,) else places)
+
+
+def _unused(segments: Any, holes: Any, regions: Any) -> list[str]:
+    """What has no effect where there are no segments, in words."""
+    if segments is not None and np.size(segments):
+        return []
+    given = [name for name, value in (("holes", holes), ("regions", regions)) if value is not None and np.size(value)]
+    return [f"{' and '.join(given)} have no effect in a session without segments"] if given else []
+
+
 def _changed(raw: dict[str, Any]) -> Change:
     return Change(**{name: _read_only(value) for name, value in raw.items()})
 
 
 def _read_only(value: Any) -> Any:
     if isinstance(value, tuple):
-        return tuple(frozen(array) for array in value)
+        return tuple(_read_only(part) for part in value)
     return frozen(value) if isinstance(value, np.ndarray) else value

@@ -2,7 +2,7 @@
 
 use crate::convert::{GraphArrays, indices_out, points_in, points_out, rows_out, triangles_out};
 use crate::errors;
-use crate::options::Options;
+use crate::options::{Made, Options};
 use crate::watch::{Watch, run};
 use hexdel::{Method, Pslg, PslgTriangulation, Start, Triangulation};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray2};
@@ -19,7 +19,7 @@ pub(crate) fn mesh_points<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let points = points_in(&points)?;
     let watch = Arc::new(Watch::default());
-    let mesher = options.mesher(py, &points, false, &watch)?;
+    let mesher = options.mesher(py, &points, Made::OfPoints, &watch)?;
     let monitor = watch.clone();
     let made = run(py, options.threads, &watch, options.progress.as_ref(), move || {
         mesher.triangulate_watched(&points, &*monitor)
@@ -29,8 +29,12 @@ pub(crate) fn mesh_points<'py>(
 
 fn made_of_points(py: Python<'_>, made: Triangulation) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
-    let inputs = made.input_of_vertex();
-    dict.set_item("input_of_vertex", indices_out(py, inputs.iter().map(|i| i.map(|i| i as usize))))?;
+    // Not by `Triangulation::input_of_vertex`: this is a large part of what a call adds.
+    let mut inputs = vec![-1; made.mesh.vertices.len()];
+    for (input, vertex) in made.vertex_of_input.iter().enumerate().rev() {
+        inputs[vertex.index()] = input as i32;
+    }
+    dict.set_item("input_of_vertex", inputs.into_pyarray(py))?;
     let vertices = made.vertex_of_input.iter().map(|v| Some(v.index()));
     dict.set_item("vertex_of_input", indices_out(py, vertices))?;
     dict.set_item("certificate", json(&made.certificate)?)?;
@@ -82,7 +86,7 @@ pub(crate) fn mesh_text<'py>(
 
 fn mesh_of_graph<'py>(py: Python<'py>, graph: Pslg, options: &Options<'_>) -> PyResult<Bound<'py, PyDict>> {
     let watch = Arc::new(Watch::default());
-    let mesher = options.mesher(py, &graph.points, true, &watch)?;
+    let mesher = options.mesher(py, &graph.points, Made::OfGraph, &watch)?;
     let monitor = watch.clone();
     let columns = graph.attributes_per_point;
     let made = run(py, options.threads, &watch, options.progress.as_ref(), move || {

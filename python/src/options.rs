@@ -11,6 +11,15 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 use std::time::Duration;
 
+/// What a mesh is made of, which says where sizes may be asked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Made {
+    OfPoints,
+    OfGraph,
+    /// Of points, in a domain that may grow.
+    InSession,
+}
+
 /// Options of all calls that make meshes. What does not belong to a call is refused
 /// by the library. Words and ranges are checked by `_options.py`.
 #[derive(FromPyObject)]
@@ -49,14 +58,15 @@ enum Part<'py> {
 }
 
 impl Options<'_> {
-    /// The mesher of these options, for points or for a graph.
+    /// The mesher of these options.
     pub(crate) fn mesher(
         &self,
         py: Python<'_>,
         points: &[DVec2],
-        of_graph: bool,
+        made: Made,
         watch: &Arc<Watch>,
     ) -> PyResult<Mesher> {
+        let of_graph = made == Made::OfGraph;
         let mut mesher = Mesher::new().method(self.method()).effort(self.effort());
         if let Some(coarsening) = self.coarsening {
             mesher = mesher.coarsening(coarsening);
@@ -79,7 +89,7 @@ impl Options<'_> {
         if let Some(radius) = self.radius {
             mesher = mesher.domain_radius(radius);
         }
-        if let Some(size) = self.size(py, points, of_graph, watch)? {
+        if let Some(size) = self.size(py, points, made, watch)? {
             mesher = mesher.size(size);
         }
         if let Some(area) = self.max_area {
@@ -129,11 +139,12 @@ impl Options<'_> {
     }
 
     /// How far the domain may be from the box around the points, over its longer side.
-    fn beyond(&self, of_graph: bool) -> f64 {
+    fn beyond(&self, made: Made) -> f64 {
         match self.domain.as_deref() {
             Some("hull" | "inside") => 0.0,
             Some("box") => 0.1,
-            None if of_graph => 0.0,
+            None if made == Made::OfGraph => 0.0,
+            _ if made == Made::InSession => f64::INFINITY,
             _ => 1.0 + self.radius.unwrap_or(0.0),
         }
     }
@@ -143,7 +154,7 @@ impl Options<'_> {
         &self,
         py: Python<'_>,
         points: &[DVec2],
-        of_graph: bool,
+        made: Made,
         watch: &Arc<Watch>,
     ) -> PyResult<Option<Size>> {
         if self.size.is_empty() {
@@ -180,7 +191,7 @@ impl Options<'_> {
                     let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
                     let extent = points.iter().fold(start, |(low, high), p| (low.min(*p), high.max(*p)));
                     let function = function.clone().unbind();
-                    let beyond = self.beyond(of_graph);
+                    let beyond = self.beyond(made);
                     let sampled = Sampled::new(function, *factor, extent, beyond, watch.clone());
                     size.and(Size::function(move |p| sampled.at(p)))
                 }

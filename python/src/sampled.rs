@@ -15,6 +15,21 @@
 //!   +-------+-+-+---+
 //! ```
 //!
+//! The points of a mesh lie in one tile. Around it, out to where a domain may grow, lie
+//! rings of twelve tiles, each half as wide as what is inside:
+//!
+//! ```text
+//!   +---+---+---+---+
+//!   |   |   |   |   |
+//!   +---+---+---+---+      however far a place is, few tiles lead to it
+//!   |   |points |   |
+//!   +---+       +---+
+//!   |   |       |   |
+//!   +---+---+---+---+
+//!   |   |   |   |   |
+//!   +---+---+---+---+
+//! ```
+//!
 //! What tiles hold depends on the function and on their places alone, not on the order
 //! of questions, so that meshes are the same on any number of threads. That the mesh
 //! keeps to the function itself is checked, and if need be mended, by `_size.py`.
@@ -48,8 +63,8 @@ pub(crate) struct Sampled {
     function: Py<PyAny>,
     /// What the function's values are multiplied with.
     factor: f64,
-    /// Corner and side of a tile of the coarsest level.
-    root: (DVec2, f64),
+    /// The tile in the middle, which the points are in.
+    middle: Middle,
     /// The box around the points, and the one outside of which the function is not called.
     boxes: [[DVec2; 2]; 2],
     watch: Arc<Watch>,
@@ -58,10 +73,21 @@ pub(crate) struct Sampled {
 
 #[derive(Default)]
 struct Tiles {
-    /// The tiles of the coarsest level, by column and row.
-    roots: BTreeMap<(i64, i64), usize>,
+    /// The tiles that are no quarters of others.
+    roots: BTreeMap<Root, usize>,
     all: Vec<Tile>,
 }
+
+/// The tile that the points are in.
+#[derive(Clone, Copy)]
+struct Middle {
+    centre: DVec2,
+    half: f64,
+}
+
+/// A tile that is no quarter of another one: its ring, 0 for the middle, and its column and
+/// row in that, from -2 to 1.
+type Root = (u32, [i8; 2]);
 
 struct Tile {
     low: DVec2,
@@ -89,7 +115,7 @@ enum Found {
 
 #[derive(Clone, Copy)]
 enum Parent {
-    Root(i64, i64),
+    Root(Root),
     Quarter(usize, usize),
 }
 
@@ -105,10 +131,10 @@ impl Sampled {
     ) -> Self {
         let side = (high - low).max_element();
         let side = if side > 0.0 && side.is_finite() { side } else { 1.0 };
-        // The middle of the points is that of a tile, whose sides are beyond the domain.
-        let corner = 0.5 * (low + high) - DVec2::splat(side);
+        // The sides of the tile are beyond the domain of most meshes.
+        let middle = Middle { centre: 0.5 * (low + high), half: side };
         let boxes = [[low, high], [low - beyond * side, high + beyond * side]];
-        Self { function, factor, root: (corner, 2.0 * side), boxes, watch, tiles: RwLock::default() }
+        Self { function, factor, middle, boxes, watch, tiles: RwLock::default() }
     }
 
     /// The size at a place.
@@ -118,9 +144,9 @@ impl Sampled {
         loop {
             if self.watch.is_stopped() {
                 // Whatever comes of it is thrown away.
-                return self.root.1;
+                return self.middle.half;
             }
-            let found = self.tiles.read().unwrap_or_else(PoisonError::into_inner).find(p, self.root);
+            let found = self.tiles.read().unwrap_or_else(PoisonError::into_inner).find(p, self.middle);
             match found {
                 Found::Size(size) => return size,
                 Found::Missing(low, side, level, parent) => match self.sample(low, side) {
@@ -158,7 +184,7 @@ impl Sampled {
                 return Err(errors::bad_length(py, places[i].clamp(inner[0], inner[1]), lengths[i]));
             }
             // Infinite lengths are no limit; they must not spoil interpolation.
-            let most = 1e6 * self.root.1;
+            let most = 1e6 * (self.middle.half + (low - self.middle.centre).abs().max_element());
             Ok(lengths.into_iter().map(|h| (h * self.factor).min(most)).collect())
         })
     }
@@ -177,11 +203,11 @@ impl Sampled {
 }
 
 impl Tiles {
-    fn find(&self, p: DVec2, (corner, side): (DVec2, f64)) -> Found {
-        let place = ((p - corner) / side).floor();
-        let (column, row) = (place.x as i64, place.y as i64);
-        let Some(&root) = self.roots.get(&(column, row)) else {
-            return Found::Missing(corner + side * place, side, 0, Parent::Root(column, row));
+    fn find(&self, p: DVec2, middle: Middle) -> Found {
+        let root = middle.root(p);
+        let Some(&root) = self.roots.get(&root) else {
+            let (low, side) = middle.place(root);
+            return Found::Missing(low, side, 0, Parent::Root(root));
         };
         let mut index = root;
         loop {
@@ -208,11 +234,11 @@ impl Tiles {
     fn add(&mut self, tile: Tile, parent: Parent) {
         let index = self.all.len();
         match parent {
-            Parent::Root(column, row) => {
-                if self.roots.contains_key(&(column, row)) {
+            Parent::Root(root) => {
+                if self.roots.contains_key(&root) {
                     return;
                 }
-                self.roots.insert((column, row), index);
+                self.roots.insert(root, index);
             }
             Parent::Quarter(of, quarter) => {
                 let place = &mut self.all[of].quarters[quarter].tile;
@@ -223,6 +249,30 @@ impl Tiles {
             }
         }
         self.all.push(tile);
+    }
+}
+
+impl Middle {
+    /// The tile that a place is in.
+    fn root(self, p: DVec2) -> Root {
+        let place = (p - self.centre) / self.half;
+        let distance = place.abs().max_element();
+        let (mut ring, mut width) = (0, 1.0);
+        while distance > width {
+            (ring, width) = (ring + 1, 2.0 * width);
+        }
+        // Tiles of a ring are half as wide as what it encloses; what is no number is in the middle.
+        let of = |x: f64| if ring == 0 { 0 } else { (2.0 * x / width).floor().clamp(-2.0, 1.0) as i8 };
+        (ring, [of(place.x), of(place.y)])
+    }
+
+    /// Corner and side of a tile.
+    fn place(self, (ring, [column, row]): Root) -> (DVec2, f64) {
+        if ring == 0 {
+            return (self.centre - self.half, 2.0 * self.half);
+        }
+        let side = 0.5 * self.half * f64::from(ring).exp2();
+        (self.centre + side * DVec2::new(f64::from(column), f64::from(row)), side)
     }
 }
 

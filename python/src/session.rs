@@ -3,7 +3,7 @@
 use crate::convert::{GraphArrays, indices_out, points_in, points_out, triangles_out};
 use crate::errors;
 use crate::mesh::{json, set_edges};
-use crate::options::Options;
+use crate::options::{Made, Options};
 use crate::watch::{Watch, run};
 use glam::DVec2;
 use hexdel::{AnySession, Method, Outcome, PointId, SessionError, Size};
@@ -28,10 +28,25 @@ impl RawSession {
     fn of_graph(py: Python<'_>, graph: GraphArrays<'_>, options: Options<'_>) -> PyResult<Self> {
         let graph = graph.graph()?;
         let watch = Arc::new(Watch::default());
-        let of_graph = !graph.segments.is_empty();
-        let mesher = options.mesher(py, &graph.points, of_graph, &watch)?;
+        let kind = if graph.segments.is_empty() { Made::InSession } else { Made::OfGraph };
+        let mesher = options.mesher(py, &graph.points, kind, &watch)?;
         let made = run(py, options.threads, &watch, None, move || AnySession::new(&graph, &mesher))?;
         Self::of(py, made, options.threads, watch)
+    }
+
+    /// Points in a domain that grows by itself, and the whole mesh as new.
+    #[staticmethod]
+    fn begin<'py>(
+        py: Python<'py>,
+        points: PyReadonlyArray2<'_, f64>,
+        options: Options<'_>,
+    ) -> PyResult<(Self, Bound<'py, PyDict>)> {
+        let points = points_in(&points)?;
+        let watch = Arc::new(Watch::default());
+        let mesher = options.mesher(py, &points, Made::InSession, &watch)?;
+        let begun = run(py, options.threads, &watch, None, move || AnySession::begin(&points, &mesher))?;
+        let (made, outcome) = begun.map_err(|error| errors::of_session(py, &error))?;
+        Ok((Self::of(py, Ok(made), options.threads, watch)?, outcome_out(py, outcome)?))
     }
 
     /// A hexagonal domain without points.
@@ -40,7 +55,7 @@ impl RawSession {
         let watch = Arc::new(Watch::default());
         let (centre, method) = (DVec2::from(centre), options.method());
         let corners = [centre - radius, centre + radius];
-        let size = options.size(py, &corners, false, &watch)?;
+        let size = options.size(py, &corners, Made::InSession, &watch)?;
         let made = run(py, options.threads, &watch, None, move || {
             let mut session = AnySession::empty(centre, radius, method)?;
             if size.is_some() {
@@ -80,7 +95,8 @@ impl RawSession {
 
     fn set_size<'py>(&self, py: Python<'py>, options: Options<'_>) -> PyResult<Bound<'py, PyDict>> {
         let (centre, radius) = self.ask(py, AnySession::domain)?;
-        let size: Option<Size> = options.size(py, &[centre - radius, centre + radius], false, &self.watch)?;
+        let corners = [centre - radius, centre + radius];
+        let size: Option<Size> = options.size(py, &corners, Made::InSession, &self.watch)?;
         self.change(py, move |session| session.set_size(size))
     }
 
@@ -104,6 +120,11 @@ impl RawSession {
 
     fn undo<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.change(py, AnySession::undo)
+    }
+
+    /// What of a graph has no effect or was mended, in words.
+    fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.ask(py, |session| session.warnings().iter().map(ToString::to_string).collect())
     }
 
     /// Numbers of points, vertices and triangles.
@@ -230,12 +251,13 @@ fn serials<'py>(py: Python<'py>, serials: &[u64]) -> Bound<'py, PyArray1<i64>> {
 
 fn outcome_out(
     py: Python<'_>,
-    Outcome { points, delta, remeshed, .. }: Outcome,
+    Outcome { points, delta, remeshed, domain, .. }: Outcome,
 ) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     let ids: Vec<u64> = points.iter().map(|id| id.0).collect();
     dict.set_item("points", serials(py, &ids))?;
     dict.set_item("remeshed", remeshed)?;
+    dict.set_item("domain", domain.map(|(centre, radius)| ((centre.x, centre.y), radius)))?;
     dict.set_item("vertices_removed", serials(py, &delta.vertices_removed))?;
     dict.set_item("triangles_removed", serials(py, &delta.triangles_removed))?;
     for (name, moved) in

@@ -298,12 +298,13 @@ def test_layout_in_memory_does_not_matter(points, data):
 
 @MANY
 @given(
+    st.booleans(),
     st.lists(
         st.tuples(st.sampled_from(["insert", "remove", "undo", "refine"]), numbers, numbers), min_size=1, max_size=8
-    )
+    ),
 )
-def test_any_session(steps):
-    session = hexdel.Session(center=(0, 0), radius=2)
+def test_any_session(follows, steps):
+    session = hexdel.Session.begin((0, 0))[0] if follows else hexdel.Session(center=(0, 0), radius=2)
     for step, x, y in steps:
         before = session.mesh() if step != "undo" else None
         made = attempt(

@@ -110,3 +110,57 @@ def test_templates(points):
     session.insert(points[10])
     mesh = session.mesh()
     assert mesh.holds and mesh.method == "templates" and np.isfinite(mesh.vertices).all()
+
+
+@pytest.mark.parametrize("method", ["compact", "templates"])
+def test_a_domain_follows_its_points(points, method):
+    session, first = hexdel.Session.begin(points[:10], method=method)
+    assert first.points.tolist() == list(range(10)) and first.domain == session.domain
+    assert len(first.triangles_added[0]) == len(session.mesh()) and len(first.triangles_removed) == 0
+    inside = session.insert(points[:10].mean(axis=0))
+    assert inside.domain is None
+    before = session.mesh()
+    far = session.insert((40.0, -30.0))
+    assert far.remeshed and far.domain == session.domain and far.domain[1] > 49
+    mesh = session.mesh()
+    assert mesh.holds and (mesh.vertices[mesh.vertex_of_input[11]] == (40.0, -30.0)).all()
+    assert session.undo().domain == session.domain == first.domain and session.mesh() == before
+    again = hexdel.Session.loads(session.dumps())
+    assert again.insert((40.0, -30.0)).domain[1] == far.domain[1]
+
+
+def test_a_domain_that_was_asked_for_does_not_follow():
+    session = hexdel.Session(center=(0, 0), radius=1)
+    with pytest.raises(hexdel.SessionError, match="does not grow by itself"):
+        session.insert((5, 5))
+    with pytest.raises(hexdel.HexdelError):
+        hexdel.Session.begin([])
+    one, _ = hexdel.Session.begin((3, 4))
+    assert len(one) == 1
+
+
+def test_a_callable_size_is_asked_for_wherever_the_domain_goes():
+    places = 0
+
+    def wanted_at(x, y):
+        nonlocal places
+        places += len(x)
+        return 200.0 + 0.5 * np.abs(x - 5000.0)
+
+    session, _ = hexdel.Session.begin([(0, 0), (1, 0)], size=wanted_at)
+    session.insert((5000.0, 1.0))
+    mesh = session.mesh()
+    # A few tiles of a thousand places for each doubling of the domain.
+    assert places < 500_000
+    ends = mesh.vertices[mesh.edges]
+    wanted = 200.0 + 0.5 * np.abs(ends[..., 0] - 5000.0)
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    assert (lengths <= 1.1 * wanted.min(axis=1)).all() and mesh.vertices[:, 0].max() > 5000.0
+
+
+def test_what_has_no_effect_is_named(square, points):
+    corners, sides, holes = square
+    with pytest.warns(hexdel.HexdelWarning, match="hole 1 at .* is not used"):
+        hexdel.Session(corners, sides, holes=[*holes, (9.0, 9.0)])
+    with pytest.warns(hexdel.HexdelWarning, match="holes and regions have no effect in a session without segments"):
+        hexdel.Session(points[:5], holes=[(0.5, 0.5)], regions=[(0.2, 0.2)])

@@ -4,7 +4,9 @@
 //! The steps are run as a person would type them; this task installs nothing
 //! and needs the Rust toolchain with rustfmt and clippy. Two tests put packages of Python
 //! below `target/`: one of `hexdel-io` meshio with numpy, which it must where there is a
-//! Python, and one of `hexdel-cli` triangle with numpy, if it can.
+//! Python, and one of `hexdel-cli` triangle with numpy, if it can. The last step installs the
+//! Python package there, with pytest, hypothesis and numpy, which it must where there is a
+//! Python of 3.10 or later.
 
 use crate::Outcome;
 use crate::tidy;
@@ -21,6 +23,7 @@ const STEPS: &[&str] = &[
     "clippy --workspace --all-targets -- -D warnings",
     "doc --workspace --no-deps",
     "test --workspace",
+    "xtask python --core",
 ];
 
 /// Runs all steps, up to the first that fails.

@@ -36,7 +36,11 @@ enum Task {
     },
     /// Build the Python package and test it, with every package that it hands meshes
     /// to, in virtual environments below target/; nothing where there is no Python
-    Python,
+    Python {
+        /// Only `pip install ./python` beside numpy, and the tests that can be run there
+        #[arg(long)]
+        core: bool,
+    },
     /// Build the wheel of the Python package and its source distribution into target/wheels
     Wheel,
     /// Prove by enumeration that every triangle keeps 43.89 to 90 degrees, and
@@ -61,7 +65,8 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(),
         Task::Bench(args) => bench::run(&args),
         Task::Regen { check } => regen::run(check),
-        Task::Python => python::test(),
+        Task::Python { core: false } => python::test(),
+        Task::Python { core: true } => python::test_core(),
         Task::Wheel => python::wheel(),
         Task::Prove { without, reduced } => prove::run(&without, reduced),
     };

@@ -5,6 +5,8 @@
 //! run to the next. One environment has every package that meshes are handed on to;
 //! packages that do not install are named, and their tests skipped. In a second one, of
 //! the oldest other Python there is, numpy is alone, and hexdel is built from its sdist.
+//! `cargo xtask python --core`, a step of `cargo xtask ci`, needs neither: `pip install ./python`
+//! as the README says, beside numpy alone, and every test that can be run there.
 
 use crate::Outcome;
 use crate::tidy;
@@ -80,6 +82,22 @@ pub(crate) fn test() -> Outcome {
         other.run("pytest", &["-q", "-p", "no:cacheprovider", &package.tests("test_calls.py")])?;
     }
     Ok(())
+}
+
+/// Installs the package as the README says, and runs the tests that need numpy alone; says
+/// so and does nothing where there is no Python.
+pub(crate) fn test_core() -> Outcome {
+    let Some(newest) = interpreters().pop() else {
+        eprintln!("python: skipped, there is no Python of 3.10 or later");
+        return Ok(());
+    };
+    let package = Package::new();
+    let core = package.environment("core", &newest)?;
+    let begun = Instant::now();
+    core.pip(TOOLS)?;
+    core.pip(&["--force-reinstall", "--no-deps", &package.source.display().to_string()])?;
+    eprintln!("python: pip install ./python in {:.0} s", begun.elapsed().as_secs_f64());
+    core.test(&package)
 }
 
 /// Where things are.
