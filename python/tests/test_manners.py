@@ -57,8 +57,17 @@ def test_threads_may_mesh_at_once(points):
     assert all(mesh == made[0] for mesh in made)
 
 
+@pytest.fixture
+def ctrl_c_raises():
+    """Python's own handler: a process that was started in the background ignores the signal."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 @pytest.mark.parametrize("after", [0.1, 0.7])
+@pytest.mark.usefixtures("ctrl_c_raises")
 def test_ctrl_c_stops_the_work(after):
     sent = []
 
