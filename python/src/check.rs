@@ -5,8 +5,8 @@ use crate::errors;
 use crate::mesh::json;
 use crate::watch::{Watch, run};
 use glam::DVec2;
-use hexdel::AngleBounds;
 use hexdel::geom::{CertifyOptions, SegmentCheck, Voronoi, VoronoiEdge, certify, check_segments};
+use hexdel::{AngleBounds, TriangleId};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -84,7 +84,7 @@ pub(crate) fn dual<'py>(
         found.map_err(|error| errors::plain(py, "dual", &error.to_string()))?;
     let dict = PyDict::new(py);
     dict.set_item("edges", rows_out(py, edges.iter().map(|e| e.ends.map(|v| v.index() as i32)).collect())?)?;
-    let side = |i: usize| edges.iter().map(move |e| e.triangles[i].map(|t| t.index()));
+    let side = |i: usize| edges.iter().map(move |e| e.triangles[i].map(TriangleId::index));
     dict.set_item("edge_triangles", (indices_out(py, side(0)), indices_out(py, side(1))))?;
     let numbers = |of: fn(&VoronoiEdge) -> f64| edges.iter().map(of).collect::<Vec<f64>>().into_pyarray(py);
     dict.set_item("lengths", numbers(|e| e.length))?;

@@ -4,7 +4,7 @@ use crate::convert::{GraphArrays, indices_out, points_in, points_out, rows_out, 
 use crate::errors;
 use crate::options::{Made, Options};
 use crate::watch::{Watch, run};
-use hexdel::{Method, Pslg, PslgTriangulation, Start, Triangulation};
+use hexdel::{Method, Pslg, PslgTriangulation, Start, Triangulation, VertexId};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -96,8 +96,7 @@ fn mesh_of_graph<'py>(py: Python<'py>, graph: Pslg, options: &Options<'_>) -> Py
     })?;
     let (made, attributes) = made.map_err(|error| errors::of_mesh(py, &error))?;
     let dict = made_of_graph(py, made)?;
-    if columns > 0 {
-        let count = attributes.len() / columns;
+    if let Some(count) = attributes.len().checked_div(columns) {
         dict.set_item("vertex_attributes", attributes.into_pyarray(py).reshape([count, columns])?)?;
     }
     Ok(dict)
@@ -108,7 +107,7 @@ fn made_of_graph(py: Python<'_>, made: PslgTriangulation) -> PyResult<Bound<'_, 
     let inputs = made.input_of_vertex();
     dict.set_item("input_of_vertex", indices_out(py, inputs.iter().map(|i| i.map(|i| i as usize))))?;
     let vertices = made.vertex_of_input();
-    dict.set_item("vertex_of_input", indices_out(py, vertices.iter().map(|v| v.map(|v| v.index()))))?;
+    dict.set_item("vertex_of_input", indices_out(py, vertices.iter().map(|v| v.map(VertexId::index))))?;
     set_edges(&dict, &made.edges)?;
     dict.set_item("vertex_markers", made.vertex_markers.clone().into_pyarray(py))?;
     let regions = made.region_of_triangle.iter().map(|r| r.map(|r| r as usize));

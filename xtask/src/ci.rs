@@ -19,6 +19,7 @@ use std::time::Instant;
 /// The steps, as arguments of cargo.
 const STEPS: &[&str] = &[
     "fmt --all --check",
+    "fmt --manifest-path python/Cargo.toml --check",
     "xtask tidy",
     "clippy --workspace --all-targets -- -D warnings",
     "doc --workspace --no-deps",

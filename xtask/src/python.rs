@@ -88,7 +88,7 @@ pub(crate) fn test() -> Outcome {
     Ok(())
 }
 
-/// Installs the package as the README says, and runs the tests that need numpy alone; says
+/// Lints the compiled half, installs the package as the README says, and runs the tests that need numpy alone; says
 /// so and does nothing where there is no Python.
 pub(crate) fn test_core() -> Outcome {
     let Some(newest) = interpreters().pop() else {
@@ -96,6 +96,7 @@ pub(crate) fn test_core() -> Outcome {
         return Ok(());
     };
     let package = Package::new();
+    package.lint()?;
     let core = package.environment("core", &newest)?;
     let begun = Instant::now();
     core.pip(TOOLS)?;
@@ -115,6 +116,14 @@ impl Package {
         let root = tidy::root();
         let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
         Self { source: root.join("python"), target }
+    }
+
+    /// Lints the compiled half, which no command for the workspace does.
+    fn lint(&self) -> Outcome {
+        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let mut clippy = Command::new(cargo);
+        clippy.args(["clippy", "--quiet", "--release", "--locked", "--target-dir"]).arg(&self.target);
+        run(clippy.args(["--", "-D", "warnings"]).current_dir(&self.source))
     }
 
     fn tests(&self, file: &str) -> String {
