@@ -7,6 +7,24 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum GrowError {
+    /// No mesh grows to such a bound.
+    #[error("the lower bound must be between {} and {} degrees, got {asked}", kept[0], kept[1])]
+    Bound {
+        /// The lower bound asked for, degrees.
+        asked: f64,
+        /// The least and the largest one, degrees.
+        kept: [f64; 2],
+    },
+    /// A segment ends at a point that there is not.
+    #[error("segment {segment} ends at point {point}, but there are {points} points, numbered from 0")]
+    NoSuchPoint {
+        /// Index of the segment.
+        segment: usize,
+        /// Index of the point.
+        point: usize,
+        /// How many points there are.
+        points: usize,
+    },
     /// A coordinate is too large or too small for the first triangulation, or not a number.
     #[error("point {index} at ({:?}, {:?}) cannot be triangulated: coordinates must be 0 or between 1e-42 and 1e60", point.x, point.y)]
     OutOfRange {

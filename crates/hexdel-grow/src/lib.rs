@@ -36,6 +36,7 @@ use hexdel_optimize::edit::{EditMesh, NONE};
 
 pub use error::GrowError;
 pub use hexdel_optimize::edit::Kind;
+use limits::RANGE_DEG;
 pub use options::{Grown, Input, Options, Role, Stats};
 use refiner::Refiner;
 
@@ -76,6 +77,7 @@ use refiner::Refiner;
 /// # Ok::<(), hexdel_grow::GrowError>(())
 /// ```
 pub fn grow(input: &Input<'_>, options: &Options, monitor: &dyn Monitor) -> Result<Grown, GrowError> {
+    refuse(input, options)?;
     let first = start::first(input)?;
     let ends: Vec<[DVec2; 2]> = input.segments.iter().map(|s| s.map(|v| input.points[v as usize])).collect();
     // Among segments a patch that is half mended is divided further.
@@ -106,6 +108,20 @@ pub fn grow(input: &Input<'_>, options: &Options, monitor: &dyn Monitor) -> Resu
         }
     }
     Ok(best.expect("the first attempt is the best so far"))
+}
+
+/// Bounds that growth does not reach, and segments that end nowhere.
+fn refuse(input: &Input<'_>, options: &Options) -> Result<(), GrowError> {
+    let [least, most] = RANGE_DEG;
+    if !(least..=most).contains(&options.min_deg) {
+        return Err(GrowError::Bound { asked: options.min_deg, kept: RANGE_DEG });
+    }
+    let points = input.points.len();
+    let beyond = |s: &[u32; 2]| s.iter().map(|&v| v as usize).find(|&v| v >= points);
+    match input.segments.iter().enumerate().find_map(|(i, s)| beyond(s).map(|point| (i, point))) {
+        Some((segment, point)) => Err(GrowError::NoSuchPoint { segment, point, points }),
+        None => Ok(()),
+    }
 }
 
 /// How often a mesh is grown at most: anew with smaller tips where triangles beside them are bad.

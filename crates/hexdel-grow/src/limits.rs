@@ -16,7 +16,7 @@ const LOOSE: f64 = 1e-11;
 const SURE: f64 = 1e-15;
 
 /// Lower bounds, degrees: below the one nothing is refined for, above the other refinement does not end.
-const RANGE_DEG: [f64; 2] = [1.0, 43.6];
+pub(crate) const RANGE_DEG: [f64; 2] = [1.0, 43.6];
 
 /// The lower bound and a right angle in all the forms needed.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,6 @@ fn cot(deg: f64) -> f64 {
 
 impl Limits {
     pub(crate) fn new(lo_deg: f64, urgent_deg: f64) -> Self {
-        let lo_deg = lo_deg.clamp(RANGE_DEG[0], RANGE_DEG[1]);
         let sin_cos = |deg: f64| {
             let (sin, cos) = libm::sincos(deg.to_radians());
             DVec2::new(sin, cos)

@@ -43,7 +43,7 @@ impl Input<'_> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// The lower bound, degrees. The upper one is a right angle. Growth does not end at much more than 43.
+    /// The lower bound, degrees, from 1 to 43.6. The upper one is a right angle. Growth does not end at much more than 43.
     pub min_deg: f64,
     /// When to give up, with [`OutOfTime`](crate::GrowError::OutOfTime).
     pub deadline: Option<Instant>,

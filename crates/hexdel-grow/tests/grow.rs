@@ -74,6 +74,19 @@ fn same_input_same_bytes() {
     assert_eq!(one.kinds, two.kinds);
 }
 
+#[test]
+fn bounds_and_segments_that_cannot_be_are_named() {
+    let (points, segments) = in_hexagon(uniform(5, 1));
+    let input = Input { points: &points, segments: &segments, ..Input::default() };
+    for asked in [0.0, -1.0, 43.7, f64::NAN, f64::INFINITY] {
+        let error = grow(&input, &Options::new(asked), &Unwatched).unwrap_err();
+        assert!(matches!(error, GrowError::Bound { kept: [1.0, 43.6], .. }), "{error}");
+    }
+    let input = Input { points: &points[..9], segments: &segments, ..Input::default() };
+    let error = grow(&input, &Options::new(30.0), &Unwatched).unwrap_err();
+    assert_eq!(error, GrowError::NoSuchPoint { segment: 3, point: 9, points: 9 });
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 

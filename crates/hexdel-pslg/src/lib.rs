@@ -56,6 +56,7 @@ mod fans;
 mod field;
 mod fit;
 mod geometry;
+mod grown;
 mod hull;
 mod interpolate;
 mod limits;

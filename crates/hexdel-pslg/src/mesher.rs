@@ -7,7 +7,8 @@ use crate::error::PslgError;
 use crate::estimate::refuse_too_many;
 use crate::fans::{Fan, Scene, with_fans};
 use crate::fit::judge::{Judge, Wedges};
-use crate::fit::optimise;
+use crate::fit::{count_rings, optimise};
+use crate::grown::{Grown, grown};
 use crate::hull::with_hull;
 use crate::limits::Limits;
 use crate::net::Net;
@@ -35,6 +36,13 @@ const REFINED_RADIUS: f64 = 1.5;
 /// Circumradius of the hexagon around an input that is not refined, in radii of the
 /// input: its inscribed circle has some room.
 const ROUGH_RADII: f64 = 1.25;
+
+/// Triangles that growth may leave out of bounds, leaving aside those where nothing else is possible. Each takes the
+/// optimiser as long as thousands of others, and where there are many, few are mended.
+const FEW_LEFT: usize = 24;
+
+/// The same of the hexagon that a mesh grows in: room for triangles between the input and its sides.
+const GROWN_RADII: f64 = 1.5;
 
 /// Meshes a planar straight-line graph.
 ///
@@ -125,6 +133,10 @@ fn run(
     let mesher = Mesher::new(input, options, size, &deadline);
     mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
     refuse_too_many(input, mesher.carving.as_ref(), &mesher.lattice, options.max_triangles)?;
+    let grown = match mesher.grown(monitor)? {
+        Some(net) if mesher.left(&net).elsewhere.is_empty() => return mesher.finished(net, 0, monitor),
+        grown => grown,
+    };
     let mut wishes = Wishes { demands: Vec::new(), lattice: mesher.lattice };
     let (mut retries, mut vain) = (0, 0);
     let first = Timed::new(monitor, &deadline, false);
@@ -134,7 +146,7 @@ fn run(
             mesher.improved(net, monitor)?
         }
         Err(PslgError::Cancelled(_)) if first.has_stopped() => {
-            let net = mesher.rough(monitor)?;
+            let net = grown.map_or_else(|| mesher.rough(monitor), Ok)?;
             return mesher.finished(net, 0, monitor);
         }
         Err(error) => return Err(error),
@@ -165,6 +177,7 @@ fn run(
         }
     }
     check(monitor)?;
+    let best = grown.filter(|grown| mesher.left(grown).score() <= left.score()).unwrap_or(best);
     mesher.finished(best, retries, monitor)
 }
 
@@ -270,16 +283,51 @@ impl<'a> Mesher<'a> {
         self.compacted(net, monitor)
     }
 
+    /// The mesh that grows out of the input, optimised; none where growth does not know what is asked for, or time
+    /// was up before there was one.
+    fn grown(&self, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
+        if self.limits.is_some() {
+            return Ok(None);
+        }
+        let first = Timed::new(monitor, self.deadline, false);
+        let corners = self.hexagon(GROWN_RADII);
+        let least = self.options.near.min_deg();
+        let net = match grown(&self.scene, &self.input.pslg, self.options.extent, corners, least, &first) {
+            Err(PslgError::Cancelled(_)) if first.has_stopped() => return Ok(None),
+            net => net?,
+        };
+        let Some(Grown { mut net, left }) = net else { return Ok(None) };
+        self.deadline.note_first_mesh();
+        count_rings(&mut net);
+        let is_left = |&t: &u32| self.judge().is_out(&net, t) && !self.is_hopeless(&net, t);
+        let left = left.into_iter().filter(is_left).count();
+        if left > FEW_LEFT {
+            return Ok(None);
+        }
+        // Removals are more where they begin with a mesh that keeps its bounds.
+        let net = compact(net, &self.kept(false), Effort::Repair, monitor)?;
+        let few = self.left(&net).elsewhere.len() <= FEW_LEFT;
+        match self.options.compact.filter(|effort| few && *effort != Effort::Repair) {
+            None => Ok(Some(net)),
+            Some(effort) => compact(net, &self.kept(false), effort, monitor).map(Some),
+        }
+    }
+
+    /// The corners of a hexagon around the input, whose circumradius is so many radii of that.
+    fn hexagon(&self, radii: f64) -> [DVec2; 6] {
+        let radius = radii * if self.reach > 0.0 { self.reach } else { 1.0 };
+        std::array::from_fn(|i| {
+            let (sin, cos) = libm::sincos(i as f64 * FRAC_PI_3);
+            self.lattice.origin() + radius * DVec2::new(cos, sin)
+        })
+    }
+
     /// The sites and pieces with no other vertices than those of a hexagon around them:
     /// what there is time for when there is none for a grid.
     fn rough(&self, monitor: &dyn Monitor) -> Result<Net, PslgError> {
-        let radius = ROUGH_RADII * if self.reach > 0.0 { self.reach } else { 1.0 };
-        let corner = |i: usize| {
-            let (sin, cos) = libm::sincos(i as f64 * FRAC_PI_3);
-            self.lattice.origin() + radius * DVec2::new(cos, sin)
-        };
+        let corners = self.hexagon(ROUGH_RADII);
         let hexagon = TriMesh {
-            vertices: std::iter::once(self.lattice.origin()).chain((0..6).map(corner)).collect(),
+            vertices: std::iter::once(self.lattice.origin()).chain(corners).collect(),
             triangles: (0..6).map(|i| [0, 1 + i, 1 + (i + 1) % 6].map(VertexId::new)).collect(),
         };
         let mut scene = Scene::plain(self.input, self.scene.pieces[..self.scene.soft as usize].to_vec());

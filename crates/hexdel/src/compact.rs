@@ -6,7 +6,7 @@
 
 use crate::error::Error;
 use crate::size::Size;
-use hexdel_classify::Dual;
+use crate::start::{Begun, Start};
 use hexdel_geom::{AngleBounds, Monitor, Phase, VertexId};
 use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize, optimize_sized};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -34,6 +34,11 @@ impl Time {
         self.left().map(|left| left / share)
     }
 
+    /// When half of it is over.
+    pub(crate) fn deadline(&self) -> Option<Instant> {
+        self.budget.and_then(|budget| self.began.checked_add(budget / 2))
+    }
+
     /// Whether there is none left.
     pub(crate) fn is_over(&self) -> bool {
         self.left().is_some_and(|left| left.is_zero())
@@ -58,41 +63,41 @@ pub(crate) struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Optimises a mesh of the grid in place.
+    /// Optimises a mesh in place.
     ///
-    /// A start that must be `repaired` first is brought within the bounds at once where
-    /// time is limited, in half of it, so that the other half is left for a start
-    /// that needs no repair.
-    pub(crate) fn optimize(&self, dual: &mut Dual, repaired: bool, time: &Time) -> Result<Ended, Error> {
-        if repaired && time.budget.is_some() {
-            let effort = self.effort.min(Effort::Fast);
-            let ended = self.run(dual, effort, time.share(2))?;
+    /// A start that must be `repaired` is brought within the bounds first: a mesh that has grown always, one of the
+    /// grid where time is limited, in half of it, so that the other half is left for a start that needs no repair.
+    pub(crate) fn optimize(&self, begun: &mut Begun, start: Start, time: &Time) -> Result<Ended, Error> {
+        let first = match start {
+            Start::Grown => Some(Effort::Repair),
+            Start::Coarse if time.budget.is_some() => Some(self.effort.min(Effort::Fast)),
+            _ => None,
+        };
+        if let Some(effort) = first {
+            let ended = self.run(begun, effort, time.share(2))?;
             if !ended.reached || effort == self.effort {
                 return Ok(ended);
             }
         }
-        self.run(dual, self.effort, time.share(1))
+        self.run(begun, self.effort, time.share(1))
     }
 
-    fn run(&self, dual: &mut Dual, effort: Effort, budget: Option<Duration>) -> Result<Ended, Error> {
+    fn run(&self, begun: &mut Begun, effort: Effort, budget: Option<Duration>) -> Result<Ended, Error> {
         let options = Options::new(self.bounds, effort);
         let options = budget.map_or(options, |budget| options.with_budget(budget));
-        optimize_dual(dual, &options, self.size, self.monitor)
+        optimize_begun(begun, &options, self.size, self.monitor)
     }
 }
 
-fn optimize_dual(
-    dual: &mut Dual,
+fn optimize_begun(
+    begun: &mut Begun,
     options: &Options,
     size: Option<&Size>,
     monitor: &dyn Monitor,
 ) -> Result<Ended, Error> {
-    let mut fixed = vec![false; dual.mesh.vertices.len()];
-    for v in &dual.vertex_of_occupant {
-        fixed[v.index()] = true;
-    }
-    let kinds = kinds_of(&dual.mesh, |v: VertexId| fixed[v.index()]);
-    let mesh = std::mem::take(&mut dual.mesh);
+    let fixed = begun.fixed();
+    let kinds = kinds_of(&begun.mesh, |v: VertexId| fixed[v.index()]);
+    let mesh = std::mem::take(&mut begun.mesh);
     let done = match size {
         None => optimize(mesh, &kinds, options, monitor),
         Some(size) => optimize_sized(mesh, &kinds, options, size, monitor),
@@ -104,8 +109,8 @@ fn optimize_dual(
         Err(error) => return Err(Error::Optimize(error)),
     };
     let Optimized { mesh, vertices, finished, .. } = optimized;
-    dual.mesh = mesh;
-    for v in &mut dual.vertex_of_occupant {
+    begun.mesh = mesh;
+    for v in &mut begun.vertex_of_site {
         *v = vertices[v.index()].expect("fixed vertices are never removed");
     }
     Ok(Ended { reached, spent: !finished })

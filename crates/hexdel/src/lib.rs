@@ -57,6 +57,7 @@ pub mod size;
 mod sized;
 #[cfg(feature = "spade")]
 pub mod spade;
+mod start;
 pub mod triangulation;
 mod workers;
 

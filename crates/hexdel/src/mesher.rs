@@ -6,10 +6,11 @@ use crate::graph::GraphOptions;
 use crate::placement::{self, Placement};
 use crate::shortest::of_placement;
 use crate::size::{Size, SizeError};
-use crate::sized::{self, Sized};
-use crate::triangulation::{Patch, Seconds, Triangulation};
+use crate::sized;
+use crate::start::{Begun, Gridded, Input, Link, links};
+use crate::triangulation::{Seconds, Triangulation};
 use crate::workers::Workers;
-use hexdel_classify::{Domain, Dual, Relocation};
+use hexdel_classify::Relocation;
 use hexdel_geom::monitor::check;
 use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, Monitor, Phase, PointSet, TriMesh, Unwatched, VertexId,
@@ -17,8 +18,10 @@ use hexdel_geom::{
 };
 use hexdel_grid::Lattice;
 use hexdel_optimize::{Effort, SIZE_TOLERANCE};
-use hexdel_refine::{Refiner, RuleSet, Start as Coarse};
+use hexdel_refine::Refiner;
 use std::time::{Duration, Instant};
+
+pub use crate::start::Start;
 
 /// How the mesh is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,67 +56,6 @@ impl Method {
     fn keeps(self, bounds: AngleBounds) -> bool {
         let kept = self.bounds();
         bounds.min_deg() <= kept.min_deg() && bounds.max_deg() >= kept.max_deg()
-    }
-
-    /// The ways to a mesh, in the order they are tried.
-    fn links(self) -> &'static [Link] {
-        const COARSE: Link = Link { start: Start::Coarse, optimize: true };
-        const FINE: Link = Link { start: Start::Templates, optimize: true };
-        const TEMPLATES: Link = Link { start: Start::Templates, optimize: false };
-        const SIMPLE: Link = Link { start: Start::Simple, optimize: false };
-        match self {
-            Self::Simple => &[SIMPLE],
-            Self::Templates => &[TEMPLATES],
-            Self::Compact => &[COARSE, FINE, TEMPLATES],
-        }
-    }
-}
-
-/// The mesh of the grid that a mesh was made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Start {
-    /// All rules and templates of section 5.
-    Templates,
-    /// The rules of section 4.
-    Simple,
-    /// Legal classes only, a third of the triangles of the templates: repaired
-    /// by [`Method::Compact`].
-    Coarse,
-}
-
-/// One way to a mesh.
-#[derive(Clone, Copy, Debug)]
-struct Link {
-    start: Start,
-    optimize: bool,
-}
-
-/// What is meshed, and where.
-struct Input<'a> {
-    points: &'a [DVec2],
-    set: &'a PointSet,
-    placement: &'a Placement,
-}
-
-impl Start {
-    fn relocation(self) -> Relocation {
-        match self {
-            Self::Templates => Relocation::Full,
-            Self::Simple => Relocation::Occupied,
-            Self::Coarse => Relocation::Fins,
-        }
-    }
-
-    fn rules(self, effort: Effort) -> RuleSet {
-        match (self, effort) {
-            (Self::Templates, _) => RuleSet::extended(),
-            (Self::Simple, _) => RuleSet::simple(),
-            // More repair, fewer removals: what little is removed at this effort
-            // is better not there at all.
-            (Self::Coarse, Effort::Fast) => RuleSet::coarse(Coarse::Apart),
-            (Self::Coarse, _) => RuleSet::coarse(Coarse::Among),
-        }
     }
 }
 
@@ -415,10 +357,10 @@ impl Mesher {
         let mut again = Again::new(monitor);
         let mut best: Option<Error> = None;
         let templates_do = self.method.keeps(bounds) && self.size.is_none();
-        for link in self.method.links() {
+        for link in links(self.method) {
             // What is to be optimised in no time is not even begun, if another start
             // needs no optimisation.
-            if link.start == Start::Coarse && time.is_over() && templates_do {
+            if link.start.is_repaired() && time.is_over() && templates_do {
                 continue;
             }
             match self.from(*link, &input, bounds, &time, &again) {
@@ -443,45 +385,30 @@ impl Mesher {
         Err(best.expect("every method has a way to a mesh"))
     }
 
-    /// Makes the mesh from one start; none if time was up before it was within the
-    /// bounds and another start is so from the beginning.
+    /// Makes the mesh from one start; none if that is not for the input, or time was up before the mesh was within
+    /// the bounds and another start is so from the beginning.
     fn from(
         &self,
         Link { start, optimize }: Link,
-        Input { points, set, placement }: &Input<'_>,
+        input: &Input<'_>,
         bounds: AngleBounds,
         time: &Time,
         monitor: &dyn Monitor,
     ) -> Result<Option<Triangulation>, Error> {
-        let began = Instant::now();
-        let mut refiner = Refiner::new(placement.lattice, start.rules(self.effort))
-            .with_coarsening(!self.without_coarsening);
-        refiner.insert(set.sites(), monitor).map_err(Error::from)?;
-        let refined = Instant::now();
-
-        let relocation = start.relocation();
-        let domain = placement.domain(refiner.grid(), relocation)?;
-        let mut least = f64::INFINITY;
-        let (mut dual, domain) = if let Some(size) = &self.size {
-            let mut sized = Sized { refiner: &mut refiner, relocation, size, monitor, least };
-            let extracted = sized.extract(domain)?;
-            least = sized.least;
-            extracted
-        } else {
-            (refiner.extract(domain, relocation, monitor)?, domain)
-        };
+        let clock = Instant::now();
+        let Some(mut begun) = self.begin(start, input, bounds, time, monitor)? else { return Ok(None) };
         let mut ended = Ended { reached: true, spent: false };
         if optimize {
             let work = Work { bounds, effort: self.effort, size: self.size.as_ref(), monitor };
-            ended = work.optimize(&mut dual, start == Start::Coarse, time)?;
-            if start == Start::Coarse && ended.spent && !ended.reached && self.method.keeps(bounds) {
+            ended = work.optimize(&mut begun, start, time)?;
+            if start.is_repaired() && ended.spent && !ended.reached && self.method.keeps(bounds) {
                 return Ok(None);
             }
         }
-        let extracted = Instant::now();
+        let extracted = clock.elapsed();
         check(monitor)?;
-        let min_edge = of_placement(placement, self.size.is_some().then_some(least));
-        let certificate = match self.finish(&mut dual, (bounds, min_edge), points, monitor) {
+        let min_edge = of_placement(input.placement, self.size.is_some().then_some(begun.least));
+        let certificate = match self.finish(&mut begun, (bounds, min_edge), input.points, monitor) {
             // Without optimisation the mesh is a last resort at any bounds.
             Err(Error::NotCertified { mesh, certificate })
                 if !ended.reached || !optimize && self.method == Method::Compact =>
@@ -490,26 +417,26 @@ impl Mesher {
             }
             done => done?,
         };
-        let size_ratio = self.size_ratio(&dual.mesh)?;
-        let certified = Instant::now();
-        let of_input = set.site_of_input().iter().map(|&site| dual.vertex_of_occupant[site as usize]);
+        let size_ratio = self.size_ratio(&begun.mesh)?;
+        let total = clock.elapsed();
+        let of_input = input.set.site_of_input().iter().map(|&site| begun.vertex_of_site[site as usize]);
         Ok(Some(Triangulation {
             vertex_of_input: of_input.collect(),
-            mesh: dual.mesh,
             certificate,
             size_ratio,
             method: self.method,
             start,
             budget_spent: ended.spent,
-            patch: patch(placement, domain),
-            max_level: deepest(&refiner) - domain.base_level,
+            patch: begun.patch,
+            max_level: begun.grid.as_ref().map_or(0, Gridded::depth),
             seconds: Seconds {
-                refine: (refined - began).as_secs_f64(),
-                extract: (extracted - refined).as_secs_f64(),
-                certify: (certified - extracted).as_secs_f64(),
-                total: (certified - began).as_secs_f64(),
+                refine: begun.refined.as_secs_f64(),
+                extract: (extracted - begun.refined).as_secs_f64(),
+                certify: (total - extracted).as_secs_f64(),
+                total: total.as_secs_f64(),
             },
-            refiner,
+            mesh: begun.mesh,
+            grid: begun.grid,
         }))
     }
 
@@ -550,45 +477,27 @@ impl Mesher {
     /// Makes the mesh exactly Delaunay and certifies it.
     fn finish(
         &self,
-        dual: &mut Dual,
+        begun: &mut Begun,
         (bounds, min_edge): (AngleBounds, Option<f64>),
         points: &[DVec2],
         monitor: &dyn Monitor,
     ) -> Result<Certificate, Error> {
-        let mut fixed = vec![false; dual.mesh.vertices.len()];
-        for vertex in &dual.vertex_of_occupant {
-            fixed[vertex.index()] = true;
-        }
+        let fixed = begun.fixed();
         let compact = self.method == Method::Compact;
         let kept = if compact { bounds } else { self.method.bounds() };
         let free = |v: VertexId| !fixed[v.index()];
-        settle_rounding(&mut dual.mesh, bounds, free);
-        restore_delaunay(&mut dual.mesh, kept, free)?;
-        let total = dual.mesh.triangles.len() as u64;
+        settle_rounding(&mut begun.mesh, bounds, free);
+        restore_delaunay(&mut begun.mesh, kept, free)?;
+        let total = begun.mesh.triangles.len() as u64;
         check(monitor)?;
         let options = CertifyOptions { bounds, inputs: Some(points), min_edge, ..CertifyOptions::default() };
-        let certificate = certify(&dual.mesh, &options);
+        let certificate = certify(&begun.mesh, &options);
         if certificate.holds() {
             // Not before: what does not hold may lead to another start.
             monitor.progress(Phase::Certify, total, total);
             return Ok(certificate);
         }
-        let mesh: TriMesh = std::mem::take(&mut dual.mesh);
+        let mesh: TriMesh = std::mem::take(&mut begun.mesh);
         Err(Error::NotCertified { mesh: Box::new(mesh), certificate: Box::new(certificate) })
     }
-}
-
-fn patch(placement: &Placement, domain: Domain) -> Patch {
-    Patch {
-        centre: placement.lattice.origin(),
-        radius: f64::from(domain.radius) * placement.lattice.spacing(domain.base_level),
-        domain,
-    }
-}
-
-/// The finest level that holds a leaf.
-fn deepest(refiner: &Refiner) -> u8 {
-    let tiles = refiner.grid().tiles();
-    let holds = |level: &u8| tiles.level(*level).iter().any(|t| t.subdivided != 0);
-    (0..tiles.levels() as u8).rev().find(holds).map_or(0, |level| level + 1)
 }

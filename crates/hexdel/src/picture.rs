@@ -1,6 +1,7 @@
 //! Pictures of the hexagon grid behind a mesh (paper, Fig. 3, 5 and 7).
 
 use crate::mesher::Method;
+use crate::start::Gridded;
 use crate::triangulation::Triangulation;
 use hexdel_classify::Class;
 use hexdel_classify::hexagons::{Hexagon, hexagons, holders};
@@ -33,7 +34,7 @@ const PLAIN: [Kind; 3] = [
 
 impl Triangulation {
     /// The hexagons whose dual the mesh is, with their classes; of
-    /// [`Method::Compact`] those of the mesh that optimisation began with.
+    /// [`Method::Compact`] those of the mesh that optimisation began with, none if that has grown.
     ///
     /// ```
     /// # use hexdel::DVec2;
@@ -42,7 +43,8 @@ impl Triangulation {
     /// # Ok::<(), hexdel::Error>(())
     /// ```
     pub fn hexagons(&self) -> Vec<Hexagon> {
-        hexagons(self.refiner.grid(), self.patch.domain, &self.refiner.occupants())
+        let of = |g: &Gridded| hexagons(g.refiner.grid(), g.domain, &g.refiner.occupants());
+        self.grid.as_ref().map(of).unwrap_or_default()
     }
 
     /// The hexagon grid as a layer of a picture, coloured by class and level; if
@@ -124,7 +126,8 @@ impl Triangulation {
         if self.method == Method::Compact {
             return None;
         }
-        let holders = holders(self.refiner.grid(), hexagons, &self.mesh.vertices);
+        let grid = self.grid.as_ref()?;
+        let holders = holders(grid.refiner.grid(), hexagons, &self.mesh.vertices);
         let of_vertex: Vec<T> = holders.into_iter().map(|i| what(i.map(|i| &hexagons[i]))).collect();
         let of_triangle = self.mesh.triangles.iter().map(|corners| {
             let [a, b, c] = corners.map(|v| of_vertex[v.index()]);
@@ -228,7 +231,8 @@ mod tests {
         let made = templates.triangulate(&generate(Kind::Clusters, 60, 3)).unwrap();
         let levels = made.levels().unwrap();
         assert_eq!(levels.classes.len(), usize::from(made.max_level) + 1);
-        let base = made.refiner.grid().lattice().spacing(made.patch.domain.base_level);
+        let grid = made.grid.as_ref().unwrap();
+        let base = grid.refiner.grid().lattice().spacing(grid.domain.base_level);
         for (corners, &level) in made.mesh.triangles.iter().zip(&levels.of_triangle) {
             let [a, b, c] = corners.map(|v| made.mesh.vertices[v.index()]);
             let steps = f64::from(1 << level) / base;

@@ -41,6 +41,10 @@ const STEPS: [u32; 2] = [3, 5];
 /// and 7/6 too fine, and what more hexagons along the rim cost is a few hundredths.
 const MOST_STEPS: [(usize, u32); 3] = [(2000, 47), (500, 23), (100, 11)];
 
+/// Circumradius of the hexagon that a mesh grows in, in radii of the input: room for triangles between the input
+/// and its sides.
+const GROWN_RADII: f64 = 1.5;
+
 /// Spacings are about the same up to this factor: a hundredth of one is less than what the
 /// centre's place among the points does.
 pub(crate) const ALIKE: f64 = 1.01;
@@ -134,6 +138,15 @@ impl Placement {
             least = least.min(f64::from(around.radius) * self.lattice.spacing(level));
         }
         Err(Error::DomainTooSmall { radius: f64::from(steps) * self.lattice.spacing(0), least })
+    }
+
+    /// Circumradius of the hexagon for a mesh that is not of the grid.
+    pub(crate) fn radius(&self, sites: &[DVec2]) -> f64 {
+        let centre = self.lattice.origin();
+        match self.steps {
+            Some(steps) => f64::from(steps) * self.lattice.spacing(0),
+            None => GROWN_RADII * sites.iter().map(|p| p.distance(centre)).fold(0.0, f64::max),
+        }
     }
 }
 

@@ -1,9 +1,8 @@
 //! The result: a mesh, what it promises, and how it was made.
 
-use crate::mesher::{Method, Start};
-use hexdel_classify::Domain;
+use crate::mesher::Method;
+use crate::start::{Gridded, Start};
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, Voronoi, VoronoiSummary};
-use hexdel_refine::Refiner;
 use serde::Serialize;
 
 /// A certified mesh of points.
@@ -20,20 +19,19 @@ pub struct Triangulation {
     pub size_ratio: Option<f64>,
     /// How it was made.
     pub method: Method,
-    /// The mesh of the grid that was the start: for [`Method::Compact`] the
-    /// templates' only where the coarse one did not lead to the bounds, or with
-    /// a budget.
+    /// The mesh that was the start: for [`Method::Compact`] that which grows out of the points or, where growth is
+    /// not for them or did not lead to the bounds, one of the grid.
     pub start: Start,
     /// Whether optimisation ended because its time did.
     pub budget_spent: bool,
     /// What it covers.
     pub patch: Patch,
-    /// Levels used below the coarsest.
+    /// Levels of the grid used below the coarsest.
     pub max_level: u8,
     /// How long it took.
     pub seconds: Seconds,
-    /// The grid behind the mesh.
-    pub(crate) refiner: Refiner,
+    /// The grid behind the mesh, if it has one.
+    pub(crate) grid: Option<Gridded>,
 }
 
 /// The regular hexagon that a mesh covers, with corners east and west.
@@ -43,8 +41,6 @@ pub struct Patch {
     pub centre: DVec2,
     /// Circumradius, in input units.
     pub radius: f64,
-    /// The same in the grid's terms.
-    pub(crate) domain: Domain,
 }
 
 /// Seconds of wall time by phase.
@@ -65,7 +61,7 @@ pub struct Seconds {
 pub struct Report<'a> {
     /// How the mesh was made.
     pub method: &'static str,
-    /// The mesh of the grid that was the start.
+    /// The mesh that was the start.
     pub start: &'static str,
     /// Whether optimisation ended because its time did.
     pub budget_spent: bool,
@@ -110,6 +106,7 @@ impl Triangulation {
                 Start::Templates => "templates",
                 Start::Simple => "simple",
                 Start::Coarse => "coarse",
+                Start::Grown => "grown",
             },
             budget_spent: self.budget_spent,
             certificate: &self.certificate,
