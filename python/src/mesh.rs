@@ -48,6 +48,7 @@ fn made_of_points(py: Python<'_>, made: Triangulation) -> PyResult<Bound<'_, PyD
         Start::Templates => "templates",
         Start::Simple => "simple",
         Start::Coarse => "coarse",
+        Start::Grown => "grown",
         _ => "other",
     };
     dict.set_item("start", start)?;

@@ -1,7 +1,7 @@
 //! Points in a hexagon.
 
 use super::{Args, OverlapsName, Report, columns_line, limited, warn_ignored, write};
-use crate::exit::{Outcome, Verdict};
+use crate::exit::{Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
@@ -38,7 +38,10 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     let made = made.map_err(|source| args.failure(source))?;
 
     let inputs = made.input_of_vertex();
-    let overlay: Option<Overlay> = args.grid.then(|| made.overlay());
+    let overlay: Option<Overlay> = args.grid.then(|| made.overlay()).filter(|o| !o.polygons.is_empty());
+    if args.grid && overlay.is_none() {
+        warn(&format!("{file}: the mesh has grown without hexagons: --grid shows none; --method templates has some"));
+    }
     let groups = match args.picture.colour {
         Some(Colour::Level) => made.levels(),
         Some(Colour::Class) => made.classes(),
