@@ -31,7 +31,7 @@ mod queue;
 mod refiner;
 mod start;
 
-use hexdel_geom::{DVec2, Monitor};
+use hexdel_geom::{DVec2, Monitor, Phase};
 use hexdel_optimize::edit::{EditMesh, NONE};
 
 pub use error::GrowError;
@@ -88,6 +88,8 @@ pub fn grow(input: &Input<'_>, options: &Options, monitor: &dyn Monitor) -> Resu
         let mesh = first.mesh.clone();
         let mut refiner = Refiner::new(mesh, &ends, options.min_deg, strict, options.deadline);
         refiner.protect(&|v| shrunk.get(v as usize).copied().unwrap_or(1.0));
+        // Progress only advances: what is grown anew is not told.
+        let monitor: &dyn Monitor = if attempt == 0 { monitor } else { &Quiet(monitor) };
         match refiner.run(monitor) {
             Err(GrowError::OutOfTime) if best.is_some() => break,
             other => other?,
@@ -126,6 +128,17 @@ fn refuse(input: &Input<'_>, options: &Options) -> Result<(), GrowError> {
 
 /// How often a mesh is grown at most: anew with smaller tips where triangles beside them are bad.
 const ATTEMPTS: u32 = 4;
+
+/// A monitor that hears of nothing and may stop the work.
+struct Quiet<'a>(&'a dyn Monitor);
+
+impl Monitor for Quiet<'_> {
+    fn progress(&self, _: Phase, _: u64, _: u64) {}
+
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
 
 /// The mesh in arrays.
 fn finished(refiner: &Refiner<'_>, input: &Input<'_>, point_of: &[u32]) -> Grown {

@@ -78,6 +78,9 @@ impl<'a> Limits<'a> {
                 *limit = f64::INFINITY;
             }
         }
+        if size.is_none() && by_triangle.iter().all(|limit| limit.is_infinite()) {
+            return None;
+        }
         Some(Self {
             plane,
             by_triangle,

@@ -24,6 +24,7 @@ use hexdel_geom::monitor::check;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, TriMesh, VertexId, smallest_enclosing_circle};
 use hexdel_grid::{Grid, Lattice};
 use hexdel_optimize::{Effort, Sizing};
+use hexdel_refine::Refiner;
 use std::f64::consts::FRAC_PI_3;
 
 /// Where a triangle has failed, hexagons are made this much smaller than its
@@ -133,14 +134,17 @@ fn run(
     let mesher = Mesher::new(input, options, size, &deadline);
     mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
     refuse_too_many(input, mesher.carving.as_ref(), &mesher.lattice, options.max_triangles)?;
-    let grown = match mesher.grown(monitor)? {
-        Some(net) if mesher.left(&net).elsewhere.is_empty() => return mesher.finished(net, 0, monitor),
-        grown => grown,
-    };
     let mut wishes = Wishes { demands: Vec::new(), lattice: mesher.lattice };
     let (mut retries, mut vain) = (0, 0);
     let first = Timed::new(monitor, &deadline, false);
-    let mut best = match mesher.attempt(&wishes, &first) {
+    // What is too near for coordinates, or takes too many triangles, is found on the grid, whatever comes next.
+    let refined = mesher.refined(&wishes, &first);
+    let grown = if refined.is_ok() { mesher.grown(monitor)? } else { None };
+    let grown = match grown {
+        Some(net) if mesher.left(&net).elsewhere.is_empty() => return mesher.finished(net, 0, monitor),
+        grown => grown,
+    };
+    let mut best = match refined.and_then(|refiner| mesher.embedded(refiner, &first)) {
         Ok(net) => {
             deadline.note_first_mesh();
             mesher.improved(net, monitor)?
@@ -158,7 +162,8 @@ fn run(
             break;
         }
         let again = Timed::new(monitor, &deadline, true);
-        let net = match mesher.attempt(&wishes, &again).and_then(|net| mesher.improved(net, monitor)) {
+        let attempt = mesher.refined(&wishes, &again).and_then(|refiner| mesher.embedded(refiner, &again));
+        let net = match attempt.and_then(|net| mesher.improved(net, monitor)) {
             Ok(net) => net,
             Err(PslgError::Cancelled(c)) if !again.has_stopped() => return Err(c.into()),
             // There is no finer mesh, or no time for one; the one that was to become
@@ -286,9 +291,9 @@ impl<'a> Mesher<'a> {
     /// The mesh that grows out of the input, optimised; none where growth does not know what is asked for, or time
     /// was up before there was one.
     fn grown(&self, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
-        if self.limits.is_some() {
+        let Some(effort) = self.options.compact.filter(|_| self.limits.is_none()) else {
             return Ok(None);
-        }
+        };
         let first = Timed::new(monitor, self.deadline, false);
         let corners = self.hexagon(GROWN_RADII);
         let least = self.options.near.min_deg();
@@ -307,10 +312,8 @@ impl<'a> Mesher<'a> {
         // Removals are more where they begin with a mesh that keeps its bounds.
         let net = compact(net, &self.kept(false), Effort::Repair, monitor)?;
         let few = self.left(&net).elsewhere.len() <= FEW_LEFT;
-        match self.options.compact.filter(|effort| few && *effort != Effort::Repair) {
-            None => Ok(Some(net)),
-            Some(effort) => compact(net, &self.kept(false), effort, monitor).map(Some),
-        }
+        let last = !few || effort == Effort::Repair;
+        if last { Ok(Some(net)) } else { compact(net, &self.kept(false), effort, monitor).map(Some) }
     }
 
     /// The corners of a hexagon around the input, whose circumradius is so many radii of that.
@@ -434,8 +437,8 @@ impl<'a> Mesher<'a> {
         domain
     }
 
-    /// A mesh with all sites and pieces in it, from the grid on.
-    fn attempt(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Net, PslgError> {
+    /// A grid as fine as sites and pieces ask for.
+    fn refined(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Refiner, PslgError> {
         let spacing = |p: DVec2, is_seen: bool| {
             self.limits.as_ref().map_or(f64::INFINITY, |limits| limits.spacing_at(p, is_seen))
         };
@@ -448,7 +451,11 @@ impl<'a> Mesher<'a> {
             limit: self.limits.as_ref().map(|_| &spacing as &dyn Fn(DVec2, bool) -> f64),
             max_triangles: self.options.max_triangles,
         };
-        let mut refiner = refine(wishes.lattice, &features, monitor)?;
+        refine(wishes.lattice, &features, monitor)
+    }
+
+    /// A mesh with all sites and pieces in it, out of a grid.
+    fn embedded(&self, mut refiner: Refiner, monitor: &dyn Monitor) -> Result<Net, PslgError> {
         let domain = Domain::smallest_reaching(refiner.grid(), Relocation::Full, self.reach);
         let domain = self.with_fine_rim(domain, refiner.grid().lattice());
         let too_many = || PslgError::too_many(self.options.max_triangles, None);

@@ -360,7 +360,8 @@ impl Mesher {
         for link in links(self.method) {
             // What is to be optimised in no time is not even begun, if another start
             // needs no optimisation.
-            if link.start.is_repaired() && time.is_over() && templates_do {
+            let in_vain = link.start.is_repaired() && time.is_over() && templates_do;
+            if in_vain || link.start == Start::Grown && !self.is_for_growth(set.sites().len(), bounds) {
                 continue;
             }
             match self.from(*link, &input, bounds, &time, &again) {

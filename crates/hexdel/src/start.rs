@@ -129,7 +129,7 @@ impl Start {
 }
 
 impl Mesher {
-    /// The mesh of a start; none if the start is not for the input.
+    /// The mesh of a start; none if there was none within the time, or not of these points.
     pub(crate) fn begin(
         &self,
         start: Start,
@@ -180,7 +180,7 @@ impl Mesher {
         })
     }
 
-    /// A mesh that has grown out of points in a hexagon; none if growth is not for them.
+    /// A mesh that has grown out of points in a hexagon; none if it did not.
     fn grown(
         &self,
         Input { set, placement, .. }: &Input<'_>,
@@ -189,9 +189,6 @@ impl Mesher {
         monitor: &dyn Monitor,
     ) -> Result<Option<Begun>, Error> {
         let sites = set.sites();
-        if !self.is_for_growth(sites.len(), bounds) {
-            return Ok(None);
-        }
         let began = Instant::now();
         let patch = Patch { centre: placement.lattice.origin(), radius: placement.radius(sites) };
         let count = sites.len() as u32;
@@ -217,7 +214,7 @@ impl Mesher {
     }
 
     /// Whether a mesh of so many points within bounds is to grow.
-    fn is_for_growth(&self, points: usize, bounds: AngleBounds) -> bool {
+    pub(crate) fn is_for_growth(&self, points: usize, bounds: AngleBounds) -> bool {
         let easy = bounds.min_deg() <= GROWN_DEG;
         self.size.is_none() && !self.without_coarsening && points > 1 && (easy || points >= MANY)
     }

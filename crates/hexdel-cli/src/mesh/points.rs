@@ -40,7 +40,10 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     let inputs = made.input_of_vertex();
     let overlay: Option<Overlay> = args.grid.then(|| made.overlay()).filter(|o| !o.polygons.is_empty());
     if args.grid && overlay.is_none() {
-        warn(&format!("{file}: the mesh has grown without hexagons: --grid shows none; --method templates has some"));
+        let input = args.input.display();
+        warn(&format!(
+            "{input}: the mesh has grown without hexagons: --grid shows none; --method templates has some"
+        ));
     }
     let groups = match args.picture.colour {
         Some(Colour::Level) => made.levels(),

@@ -82,7 +82,11 @@ fn options_reach_the_mesher() {
     assert!(picture("--grid").contains(">hexagons<"));
     assert!(!picture("").contains(">hexagons<"));
     let grown = bench.run(&format!("mesh {input} -q --grid --min-angle 30 -o p.svg"));
-    assert!(grown.code == 0 && grown.err.contains("--grid shows none; --method templates has some"), "{}", grown.err);
+    assert!(
+        grown.code == 0 && grown.err.contains("--grid shows none; --method templates has some"),
+        "{}",
+        grown.err
+    );
 }
 
 #[test]
