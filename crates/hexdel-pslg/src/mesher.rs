@@ -141,7 +141,7 @@ fn run(
     let refined = mesher.refined(&wishes, &first);
     let grown = if refined.is_ok() { mesher.grown(monitor)? } else { None };
     let grown = match grown {
-        Some(net) if mesher.left(&net).elsewhere.is_empty() => return mesher.finished(net, 0, monitor),
+        Some(net) if mesher.left(&net).score() == 0 => return mesher.finished(net, 0, monitor),
         grown => grown,
     };
     let mut best = match refined.and_then(|refiner| mesher.embedded(refiner, &first)) {
