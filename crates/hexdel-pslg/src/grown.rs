@@ -64,10 +64,9 @@ fn net_of(made: &hexdel_grow::Grown, scene: &Scene) -> Net {
     for (v, (point, kind)) in made.point_of_vertex.iter().zip(&made.kinds).enumerate() {
         let kind = match *point {
             Some(site) if (site as usize) < scene.sites.len() => Kind::Site(site),
-            Some(_) => Kind::Rim,
             None if *kind == GrownKind::Free => Kind::Free,
-            // Those on pieces are told by their edges.
-            None => Kind::Rim,
+            // Corners and sides of the hexagon; those on pieces are told by their edges.
+            _ => Kind::Rim,
         };
         net.move_to(v as u32, made.mesh.vertices[v], kind);
     }

@@ -432,8 +432,8 @@ impl Mesher {
             max_level: begun.grid.as_ref().map_or(0, Gridded::depth),
             seconds: Seconds {
                 refine: begun.refined.as_secs_f64(),
-                extract: (extracted - begun.refined).as_secs_f64(),
-                certify: (total - extracted).as_secs_f64(),
+                extract: extracted.as_secs_f64() - begun.refined.as_secs_f64(),
+                certify: total.as_secs_f64() - extracted.as_secs_f64(),
                 total: total.as_secs_f64(),
             },
             mesh: begun.mesh,
