@@ -24,6 +24,7 @@ const STEPS: &[&str] = &[
     "clippy --workspace --all-targets -- -D warnings",
     "doc --workspace --no-deps",
     "test --workspace",
+    "xtask regen --check",
     "xtask python --core",
 ];
 

@@ -38,10 +38,6 @@ const REFINED_RADIUS: f64 = 1.5;
 /// input: its inscribed circle has some room.
 const ROUGH_RADII: f64 = 1.25;
 
-/// Triangles that growth may leave out of bounds, leaving aside those where nothing else is possible. Each takes the
-/// optimiser as long as thousands of others, and where there are many, few are mended.
-const FEW_LEFT: usize = 24;
-
 /// The same of the hexagon that a mesh grows in: room for triangles between the input and its sides.
 const GROWN_RADII: f64 = 1.5;
 
@@ -140,10 +136,12 @@ fn run(
     // What is too near for coordinates, or takes too many triangles, is found on the grid, whatever comes next.
     let refined = mesher.refined(&wishes, &first);
     let grown = if refined.is_ok() { mesher.grown(monitor)? } else { None };
-    let grown = match grown {
-        Some(net) if mesher.left(&net).score() == 0 => return mesher.finished(net, 0, monitor),
-        grown => grown,
-    };
+    if let Some(net) = grown.as_ref().filter(|net| mesher.left(net).score() == 0) {
+        let made = mesher.finished(net.clone(), 0, monitor)?;
+        if made.holds() {
+            return Ok(made);
+        }
+    }
     let mut best = match refined.and_then(|refiner| mesher.embedded(refiner, &first)) {
         Ok(net) => {
             deadline.note_first_mesh();
@@ -182,7 +180,7 @@ fn run(
         }
     }
     check(monitor)?;
-    let best = grown.filter(|grown| mesher.left(grown).score() <= left.score()).unwrap_or(best);
+    let best = grown.filter(|grown| mesher.left(grown).score() < left.score()).unwrap_or(best);
     mesher.finished(best, retries, monitor)
 }
 
@@ -305,14 +303,13 @@ impl<'a> Mesher<'a> {
         self.deadline.note_first_mesh();
         count_rings(&mut net);
         let is_left = |&t: &u32| self.judge().is_out(&net, t) && !self.is_hopeless(&net, t);
-        let left = left.into_iter().filter(is_left).count();
-        if left > FEW_LEFT {
+        // Each takes the optimiser as long as thousands of others; the grid may have none.
+        if left.iter().any(is_left) {
             return Ok(None);
         }
-        // Removals are more where they begin with a mesh that keeps its bounds.
+        // Removals begin with a mesh that keeps its bounds; where there is none, the grid may have one.
         let net = compact(net, &self.kept(false), Effort::Repair, monitor)?;
-        let few = self.left(&net).elsewhere.len() <= FEW_LEFT;
-        let last = !few || effort == Effort::Repair;
+        let last = !self.left(&net).elsewhere.is_empty() || effort == Effort::Repair;
         if last { Ok(Some(net)) } else { compact(net, &self.kept(false), effort, monitor).map(Some) }
     }
 
