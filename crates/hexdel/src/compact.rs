@@ -1,4 +1,4 @@
-//! The compact method: a mesh of the grid goes through the optimiser.
+//! The compact method: a first mesh, grown or of the grid, goes through the optimiser.
 //!
 //! What vertices may do follows from where they lie: input points and the
 //! corners of the domain stay, vertices on its sides slide, all others are

@@ -33,7 +33,7 @@ pub enum Method {
     /// The paper's simple refinement (section 4): 30 to 120 degrees, about a
     /// quarter of the triangles.
     Simple,
-    /// Optimisation of a mesh of the grid to any bounds: with 43.89 to 90
+    /// Optimisation of a first mesh, which has grown ([`Start::Grown`]) or is one of the grid, to any bounds: with 43.89 to 90
     /// degrees, about a thirteenth of the templates' triangles in fifty times
     /// their time.
     ///
@@ -224,7 +224,8 @@ impl Mesher {
     }
 
     /// Whether hexagons are merged again where all rules allow it (section
-    /// 5.3): up to 7 % fewer triangles. On by default; always, for graphs.
+    /// 5.3): up to 7 % fewer triangles. On by default; always, for graphs. Without it [`Method::Compact`]
+    /// begins with a mesh of the grid.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, Method, generate};

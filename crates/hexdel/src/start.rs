@@ -103,7 +103,7 @@ impl Begun {
 }
 
 impl Start {
-    /// Whether its mesh is out of bounds until it is optimised.
+    /// Whether its mesh may be out of bounds until it is optimised.
     pub(crate) fn is_repaired(self) -> bool {
         matches!(self, Self::Coarse | Self::Grown)
     }
