@@ -27,7 +27,7 @@ enum Task {
     Tidy,
     /// Measure time and memory, side by side with spade
     Bench(bench::Args),
-    /// Rebuild all that is computed: computed fixtures, records of the snapshot
+    /// Rebuild all that is computed: fixtures with a seed or a formula, records of the snapshot
     /// tests, the proof, the figures of the documents and the gallery
     Regen {
         /// Change nothing; fail if anything would change

@@ -1,9 +1,9 @@
 //! `cargo xtask regen`: everything in the repository that is computed from
 //! something else in it.
 //!
-//! The records of the snapshot tests, the proof, the figures of the documents and the gallery
-//! are written anew from the fixtures or, with `--check`, compared with what they
-//! would be. All are the same bytes on every platform. What a record is made of is
+//! The fixtures that have a seed or a formula, and from all fixtures the records of the snapshot
+//! tests, the proof, the figures of the documents and the gallery are written anew or, with
+//! `--check`, compared with what they would be. All are the same bytes on every platform. What a record is made of is
 //! the business of the tests, what a figure shows that of [`figures`] and
 //! [`gallery`].
 
@@ -37,12 +37,13 @@ const WHOLE: &str = "crates/hexdel/tests/whole";
 /// Rebuilds, or compares, everything.
 pub(crate) fn run(check: bool) -> Outcome {
     let root = tidy::root();
-    let computed = fixtures::all()?;
+    let fixtures = fixtures::all()?;
     if check {
-        check_files(&root, FIXTURES, &computed)?;
+        check_files(&root, FIXTURES, &fixtures)?;
     } else {
-        write_files(&root.join(FIXTURES), &computed)?;
+        write_files(&root.join(FIXTURES), &fixtures)?;
     }
+    fixtures::check_listed(&root.join(FIXTURES), &fixtures)?;
     let mut files = figures::all(&root)?;
     files.extend(prove::files()?);
     files.extend(gallery::all(&root).map_err(|fault| fault as Box<dyn std::error::Error>)?);
