@@ -45,3 +45,16 @@ def test_groundwater(tmp_path, capsys):
     # All that is recharged and not pumped leaves through the lake.
     heads = groundwater.heads_of(mesh, soils)
     assert np.isfinite(heads).all()
+
+
+def test_gallery(tmp_path, capsys):
+    pytest.importorskip("matplotlib")
+    gallery = load("gallery")
+    gallery.main(tmp_path, ("two-close", "plane", "letters"))
+    pictures = sorted(path.name for path in tmp_path.iterdir())
+    wanted = [f"{name}-{method}.png" for name in ("plane", "two-close") for method in ("compact", "templates")]
+    assert pictures == sorted(["letters-compact.png", *wanted])
+    assert all((tmp_path / name).read_bytes().startswith(b"\x89PNG") for name in pictures)
+    # Each line names a picture and the triangles that it shows.
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(pictures) and all(" triangles" in line for line in lines)

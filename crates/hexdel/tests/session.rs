@@ -100,6 +100,21 @@ proptest! {
 }
 
 #[test]
+fn a_point_beside_a_side_leaves_no_short_edges_behind() {
+    let mut session = Session::empty(DVec2::ZERO, 1.0).unwrap();
+    let near = session.insert(DVec2::new(-0.5922, -0.5928)).unwrap().points;
+    session.insert(DVec2::ZERO).unwrap();
+    session.undo().unwrap();
+    session.remove(&near).unwrap();
+    check(&session);
+    assert!(session.certificate().min_edge_bound.is_some());
+    assert_eq!(session.counts(), [0, 7, 6]);
+    session.undo().unwrap();
+    assert_eq!(session.counts()[0], 1);
+    check(&session);
+}
+
+#[test]
 fn points_that_come_and_go_leave_as_many_triangles_as_there_were() {
     let all = points(120, 3);
     let mut session = Session::new(&all[..100], &Mesher::new()).unwrap();
@@ -142,7 +157,8 @@ proptest! {
         session.remove(&ids).unwrap();
         check(&session);
         let after = session.counts()[2] as f64;
-        prop_assert!((after / before - 1.0).abs() <= 0.1, "{} triangles, then {}", before, after);
+        // Fewer are as good: what is made at once is not the least.
+        prop_assert!(after / before - 1.0 <= 0.1, "{} triangles, then {}", before, after);
     }
 }
 

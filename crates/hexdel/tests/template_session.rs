@@ -123,6 +123,22 @@ proptest! {
 }
 
 #[test]
+fn a_size_that_goes_leaves_no_short_edges_behind() {
+    let mut session = TemplateSession::empty(DVec2::ZERO, 2.0).unwrap();
+    let size = Size::unlimited().and_points(&[(DVec2::ZERO, 0.02)]).unwrap();
+    session.set_size(Some(size)).unwrap();
+    session.insert_all(&[DVec2::ZERO, DVec2::new(0.0, 0.8)]).unwrap();
+    let fine = session.counts();
+    session.set_size(None).unwrap();
+    check(&session);
+    assert!(session.certificate().min_edge_bound.is_some());
+    assert!(3 * session.counts()[2] < fine[2], "{:?}, before {fine:?}", session.counts());
+    session.undo().unwrap();
+    assert_eq!(session.counts(), fine);
+    check(&session);
+}
+
+#[test]
 fn one_by_one_and_back_is_as_good_as_at_once() {
     let all = points(300, 3);
     let made = TemplateSession::new(&all, &Mesher::new().domain_radius(1.5)).unwrap();

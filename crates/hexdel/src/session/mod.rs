@@ -18,7 +18,7 @@ mod templates;
 
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
-use crate::shortest;
+use crate::shortest::{self, has_shorter_edge};
 use crate::size::{Size, SizeError};
 use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
 use hexdel_optimize::live::{LiveError, LiveMesh, Step};
@@ -225,7 +225,10 @@ impl Session {
     /// changes nearby do not suffice, or there are more new points than
     /// points, the whole is meshed anew. Without segments, the mesh of up to 1,024 points is
     /// compared with one made at once now and then, and meshed anew if that is smaller: of up to
-    /// 32 points after every call, of up to 256 when an eighth has changed, then half.
+    /// 32 points after every call, of up to 64 after every other, of up to 256 when an eighth
+    /// has changed, then half. It is
+    /// meshed anew as well where an edge is shorter than the [`certificate`](Self::certificate)
+    /// holds it against.
     pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
         let before = self.points.len();
         let present = self.of_slot.len();
@@ -548,12 +551,17 @@ impl Session {
         made
     }
 
-    /// The certificate of the whole mesh, made from scratch. The shortest edge is held against the
-    /// paper's `l_min` of the closest two of points and corners of the domain, of the distance of
-    /// points to its sides, or of the least size, whichever is least. It is measured, not kept:
-    /// nothing is refused for an edge that is shorter, a saved session neither. Of a graph against
-    /// the bounds near segments, with exempt triangles out of bounds: [`check`](Self::check) knows
-    /// them.
+    /// The certificate of the whole mesh, made from scratch.
+    ///
+    /// The shortest edge is held against the paper's `l_min` of the closest two of points and
+    /// corners of the domain, of the distance of points to its sides, or of the least size,
+    /// whichever is least. Points and sizes that have gone may leave shorter edges behind: then
+    /// nothing is promised of them (`min_edge_bound` is none) until the mesh is made anew
+    /// ([`renew`](Self::renew)). Up to 1,024 points a call that would leave such edges makes it
+    /// anew itself, where that is possible in the domain.
+    ///
+    /// The mesh of a graph is held against the bounds near segments, with exempt triangles out
+    /// of bounds: [`check`](Self::check) knows them.
     ///
     /// # Complexity
     ///
@@ -562,7 +570,8 @@ impl Session {
         let (_, points) = self.present();
         let domain = (self.centre, self.radius);
         let mesh = &self.live.snapshot().mesh;
-        self.certificate_with(shortest::of_session(&points, domain, mesh, self.size.as_ref()))
+        let allowed = shortest::of_session(&points, domain, mesh, self.size.as_ref());
+        self.certificate_with(allowed.filter(|&edge| !has_shorter_edge(mesh, edge)))
     }
 
     /// The same against another shortest edge, or none; of a graph there is none.

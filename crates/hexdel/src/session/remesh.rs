@@ -3,6 +3,7 @@
 use super::{Before, Frame, Outcome, PointId, Session, SessionError, Undo};
 use crate::error::Error;
 use crate::placement::MAX_COORDINATE;
+use crate::shortest::{self, has_shorter_edge};
 use crate::size::Size;
 use crate::triangulation::Triangulation;
 use hexdel_geom::DVec2;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 
 /// Up to so many points, when one of so many has changed, the mesh is compared with one made
 /// at once, which takes about a millisecond for each point.
-const COMPARED: [(usize, usize); 3] = [(32, 32), (256, 8), (1024, 2)];
+const COMPARED: [(usize, usize); 3] = [(64, 32), (256, 8), (1024, 2)];
 
 /// The one made at once is taken if there are so many times its triangles.
 const MORE: f64 = 1.05;
@@ -88,12 +89,6 @@ impl Session {
         radius: f64,
         size: Option<Size>,
     ) -> Result<Outcome, SessionError> {
-        if points.is_empty() {
-            let mut anew = Self::empty(self.centre, radius)?;
-            anew.bounds = self.bounds;
-            anew.set_size(size)?;
-            return Ok(self.replace((anew.live, None), Vec::new(), radius, anew.size));
-        }
         let (live, slots) = self.made_at_once(ids, points, radius, size.as_ref())?;
         Ok(self.replace((live, None), slots, radius, size))
     }
@@ -106,6 +101,12 @@ impl Session {
         radius: f64,
         size: Option<&Size>,
     ) -> Result<(LiveMesh, Vec<(PointId, u32)>), SessionError> {
+        if points.is_empty() {
+            let mut empty = Self::empty(self.centre, radius)?;
+            empty.bounds = self.bounds;
+            empty.set_size(size.cloned())?;
+            return Ok((empty.live, Vec::new()));
+        }
         let mesher = self.options.clone().bounds(self.bounds);
         let mesher = mesher.around(self.centre, radius);
         let mesher = size.iter().fold(mesher, |m, s| m.size((*s).clone()));
@@ -125,23 +126,41 @@ impl Session {
     }
 
     /// After a call that has changed the points and not ended: the same by a mesh made at
-    /// once, if so many have changed that this is in proportion and it has many triangles
-    /// fewer. `abandon` takes the call back.
+    /// once, if an edge is shorter than the points allow, or if so many points have changed
+    /// that this is in proportion and it has many triangles fewer. `abandon` takes the call
+    /// back.
     pub(super) fn improved(&mut self, changed: usize, abandon: impl FnOnce(&mut Self)) -> Option<Outcome> {
         self.changed += changed;
         let points = self.of_slot.len();
         let share = COMPARED.into_iter().find(|c| points <= c.0)?.1;
-        if self.frame.is_some() || points == 0 || self.changed * share < points {
+        if self.frame.is_some() {
+            return None;
+        }
+        let too_short = self.has_short_edge();
+        let many = points > 0 && self.changed * share >= points;
+        if !too_short && !many {
             return None;
         }
         self.changed = 0;
         let (ids, points) = self.present();
         let (live, slots) = self.made_at_once(&ids, &points, self.radius, self.size.as_ref()).ok()?;
-        if self.live.counts()[1] as f64 <= MORE * live.counts()[1] as f64 {
+        if !too_short && self.live.counts()[1] as f64 <= MORE * live.counts()[1] as f64 {
             return None;
         }
         abandon(self);
         Some(self.replace((live, None), slots, self.radius, self.size.clone()))
+    }
+
+    /// Whether an edge is shorter than what is there allows, as after points have gone that
+    /// were close to others.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    fn has_short_edge(&self) -> bool {
+        let (domain, mesh) = ((self.centre, self.radius), self.live.snapshot().mesh);
+        let allowed = shortest::of_session(&self.present().1, domain, &mesh, self.size.as_ref());
+        allowed.is_some_and(|edge| has_shorter_edge(&mesh, edge))
     }
 
     /// Puts another mesh of points in the place of this one.

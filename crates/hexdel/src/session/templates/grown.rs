@@ -4,7 +4,7 @@ use super::cells::{Cells, Replaced, Serials, in_order};
 use super::patch::{is_free, settle};
 use crate::placement::CONFLICT_REACH;
 use crate::session::{PointId, SessionError};
-use crate::shortest;
+use crate::shortest::{self, has_shorter_edge};
 use crate::size::{Size, SizeError};
 use crate::sized::along_rim;
 use hexdel_classify::{Domain, KeptDual};
@@ -162,9 +162,23 @@ impl Grown {
 
     /// The certificate of the whole mesh.
     pub(super) fn certificate(&self, points: &[DVec2]) -> Certificate {
-        let (lattice, mesh) = (self.lattice(), self.mesh().0);
+        let mesh = self.mesh().0;
+        let allowed = self.shortest_edge_allowed(&mesh, points);
+        certified(&mesh, points, allowed.filter(|&edge| !has_shorter_edge(&mesh, edge)))
+    }
+
+    /// Whether an edge is shorter than what is there allows, as where points hold each other
+    /// down on levels that a size has asked for.
+    pub(super) fn has_short_edge(&self, points: &[DVec2]) -> bool {
+        let mesh = self.mesh().0;
+        self.shortest_edge_allowed(&mesh, points).is_some_and(|edge| has_shorter_edge(&mesh, edge))
+    }
+
+    fn shortest_edge_allowed(&self, mesh: &TriMesh, points: &[DVec2]) -> Option<f64> {
+        let lattice = self.lattice();
         let domain = (lattice.origin(), f64::from(self.steps()) * lattice.spacing(0));
-        certified(&mesh, points, shortest::of_session(points, domain, &mesh, self.size.as_deref()))
+        let allowed = shortest::of_session(points, domain, mesh, self.size.as_deref());
+        allowed.map(|edge| shortest::of_lattice(&lattice, edge))
     }
 
     /// Takes points out, by their place in the order of adding, and puts others
@@ -363,7 +377,7 @@ pub(super) fn too_fine() -> SizeError {
     SizeError::TooFine { levels: Grid::MAX_LEVELS }
 }
 
-/// The certificate of a mesh, against a shortest edge if there is one: it is measured, not kept.
+/// The certificate of a mesh, against a shortest edge if one is promised.
 pub(super) fn certified(mesh: &TriMesh, points: &[DVec2], min_edge: Option<f64>) -> Certificate {
     let bounds = AngleBounds::EXTENDED;
     certify(mesh, &CertifyOptions { bounds, inputs: Some(points), min_edge, ..CertifyOptions::default() })

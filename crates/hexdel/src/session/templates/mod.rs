@@ -380,7 +380,15 @@ impl TemplateSession {
             );
         }
         match self.grown.set_size(size.clone()) {
-            Ok(step) => Ok(self.done(step, Vec::new(), Vec::new(), self.since)),
+            Ok(step) => {
+                let all = self.all_points();
+                if !self.grown.has_short_edge(&all.1) {
+                    return Ok(self.done(step, Vec::new(), Vec::new(), self.since));
+                }
+                self.grown.take_back(step);
+                let since = self.since.and_lifted();
+                self.mesh_anew(self.best_lattice(&all.1), size, all, (Vec::new(), since))
+            }
             Err(Stuck::Levels(_)) => Err(grown::too_fine().into()),
             Err(Stuck::Rim | Stuck::Unsettled) => {
                 let anew = (self.grown.lattice(), self.grown.steps());
