@@ -7,6 +7,7 @@
 //! suffice. `docs/sessions.md` explains the whole.
 
 mod any;
+mod certificate;
 mod divide;
 mod domain;
 mod error;
@@ -18,9 +19,8 @@ mod templates;
 
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
-use crate::shortest::{self, has_shorter_edge};
 use crate::size::{Size, SizeError};
-use hexdel_geom::{AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, VertexId, certify};
+use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
 use hexdel_optimize::live::{LiveError, LiveMesh, Step};
 use hexdel_optimize::{Sizing, kinds_of};
 use std::collections::{BTreeMap, VecDeque};
@@ -549,40 +549,6 @@ impl Session {
             self.add_segments(frame, &snapshot, &mut made);
         }
         made
-    }
-
-    /// The certificate of the whole mesh, made from scratch.
-    ///
-    /// The shortest edge is held against the paper's `l_min` of the closest two of points and
-    /// corners of the domain, of the distance of points to its sides, or of the least size,
-    /// whichever is least. Points and sizes that have gone may leave shorter edges behind: then
-    /// nothing is promised of them (`min_edge_bound` is none) until the mesh is made anew
-    /// ([`renew`](Self::renew)). Up to 1,024 points a call that would leave such edges makes it
-    /// anew itself, where that is possible in the domain.
-    ///
-    /// The mesh of a graph is held against the bounds near segments, with exempt triangles out
-    /// of bounds: [`check`](Self::check) knows them.
-    ///
-    /// # Complexity
-    ///
-    /// Linear in the mesh.
-    pub fn certificate(&self) -> Certificate {
-        let (_, points) = self.present();
-        let domain = (self.centre, self.radius);
-        let mesh = &self.live.snapshot().mesh;
-        let allowed = shortest::of_session(&points, domain, mesh, self.size.as_ref());
-        self.certificate_with(allowed.filter(|&edge| !has_shorter_edge(mesh, edge)))
-    }
-
-    /// The same against another shortest edge, or none; of a graph there is none.
-    fn certificate_with(&self, min_edge: Option<f64>) -> Certificate {
-        let (_, points) = self.present();
-        if self.frame.is_some() {
-            return self.certificate_of_graph(&points);
-        }
-        let options =
-            CertifyOptions { bounds: self.bounds, inputs: Some(&points), min_edge, ..Default::default() };
-        certify(&self.live.snapshot().mesh, &options)
     }
 }
 

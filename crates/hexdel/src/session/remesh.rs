@@ -3,7 +3,6 @@
 use super::{Before, Frame, Outcome, PointId, Session, SessionError, Undo};
 use crate::error::Error;
 use crate::placement::MAX_COORDINATE;
-use crate::shortest::{self, has_shorter_edge};
 use crate::size::Size;
 use crate::triangulation::Triangulation;
 use hexdel_geom::DVec2;
@@ -149,18 +148,6 @@ impl Session {
         }
         abandon(self);
         Some(self.replace((live, None), slots, self.radius, self.size.clone()))
-    }
-
-    /// Whether an edge is shorter than what is there allows, as after points have gone that
-    /// were close to others.
-    ///
-    /// # Complexity
-    ///
-    /// Linear in the mesh.
-    fn has_short_edge(&self) -> bool {
-        let (domain, mesh) = ((self.centre, self.radius), self.live.snapshot().mesh);
-        let allowed = shortest::of_session(&self.present().1, domain, &mesh, self.size.as_ref());
-        allowed.is_some_and(|edge| has_shorter_edge(&mesh, edge))
     }
 
     /// Puts another mesh of points in the place of this one.

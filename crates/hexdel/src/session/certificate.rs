@@ -1,0 +1,55 @@
+//! What a session's mesh is found to keep.
+
+use super::Session;
+use crate::shortest::{self, has_shorter_edge};
+use hexdel_geom::{Certificate, CertifyOptions, TriMesh, certify};
+
+impl Session {
+    /// The certificate of the whole mesh, made from scratch.
+    ///
+    /// The shortest edge is held against the paper's `l_min` of the closest two of points and
+    /// corners of the domain, of the distance of points to its sides, or of the least size,
+    /// whichever is least. Points and sizes that have gone may leave shorter edges behind: then
+    /// nothing is promised of them (`min_edge_bound` is none) until the mesh is made anew
+    /// ([`renew`](Self::renew)). Up to 1,024 points a call that would leave such edges makes it
+    /// anew itself, where that is possible in the domain.
+    ///
+    /// The mesh of a graph is held against the bounds near segments, with exempt triangles out
+    /// of bounds: [`check`](Self::check) knows them.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn certificate(&self) -> Certificate {
+        let mesh = self.live.snapshot().mesh;
+        let allowed = self.shortest_edge_allowed(&mesh);
+        self.certificate_with(allowed.filter(|&edge| !has_shorter_edge(&mesh, edge)))
+    }
+
+    /// The same against another shortest edge, or none; of a graph there is none.
+    pub(super) fn certificate_with(&self, min_edge: Option<f64>) -> Certificate {
+        let (_, points) = self.present();
+        if self.frame.is_some() {
+            return self.certificate_of_graph(&points);
+        }
+        let options =
+            CertifyOptions { bounds: self.bounds, inputs: Some(&points), min_edge, ..Default::default() };
+        certify(&self.live.snapshot().mesh, &options)
+    }
+
+    /// Whether an edge is shorter than what is there allows, as after points have gone that
+    /// were close to others.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub(super) fn has_short_edge(&self) -> bool {
+        let mesh = self.live.snapshot().mesh;
+        self.shortest_edge_allowed(&mesh).is_some_and(|edge| has_shorter_edge(&mesh, edge))
+    }
+
+    fn shortest_edge_allowed(&self, mesh: &TriMesh) -> Option<f64> {
+        let (domain, points) = ((self.centre, self.radius), self.present().1);
+        shortest::of_session(&points, domain, mesh, self.size.as_ref())
+    }
+}
