@@ -196,7 +196,7 @@ impl Args {
 }
 
 const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .poly, .csv, .tsv, .xyz, .txt, \
-    .pts, .geojson, .wkt";
+    .pts, .geojson, .geojsonl, .wkt";
 
 const WRITABLE: &str = ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg, .csv, \
     .tsv, .xyz, .txt, .pts";

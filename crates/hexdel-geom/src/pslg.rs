@@ -146,35 +146,38 @@ impl Pslg {
     ///
     /// Linear in the number of segments and of those of polygons.
     pub fn check_layout(&self) -> Result<(), PslgLayoutError> {
-        let points = self.points.len();
-        for (segment, ends) in self.segments.iter().enumerate() {
-            if let Some(&point) = ends.iter().find(|&&end| end as usize >= points) {
-                return Err(PslgLayoutError::SegmentEnd { segment, point, points });
-            }
-        }
-        let segments = self.segments.len();
-        for (polygon, area) in self.polygons.iter().enumerate() {
-            if let Some(&segment) = area.rings.iter().flatten().find(|&&s| s as usize >= segments) {
-                return Err(PslgLayoutError::PolygonSegment { polygon, segment, segments });
-            }
-        }
-        let markers = |array, expected, found| match found {
-            0 => Ok(()),
-            _ => length(array, expected, found),
-        };
-        markers("point_markers", points, self.point_markers.len())?;
-        markers("segment_markers", segments, self.segment_markers.len())?;
+        self.layout_errors().next().map_or(Ok(()), Err)
+    }
+
+    /// Everything that [`check_layout`](Self::check_layout) would find, one after the other.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the number of segments and of those of polygons, if all are taken.
+    pub fn layout_errors(&self) -> impl Iterator<Item = PslgLayoutError> + '_ {
+        let (points, segments) = (self.points.len(), self.segments.len());
+        let ends = self.segments.iter().enumerate().flat_map(move |(segment, ends)| {
+            let missing = ends.iter().filter(move |&&end| end as usize >= points);
+            missing.map(move |&point| PslgLayoutError::SegmentEnd { segment, point, points })
+        });
+        let borders = self.polygons.iter().enumerate().flat_map(move |(polygon, area)| {
+            let missing = area.rings.iter().flatten().filter(move |&&s| s as usize >= segments);
+            missing.map(move |&segment| PslgLayoutError::PolygonSegment { polygon, segment, segments })
+        });
+        let markers = |found, expected| if found == 0 { 0 } else { expected };
+        let [of_points, of_segments] = [self.point_markers.len(), self.segment_markers.len()];
         // A product beyond usize fits no array, so saturating keeps the verdict.
         let attributes = points.saturating_mul(self.attributes_per_point);
-        length("point_attributes", attributes, self.point_attributes.len())
+        let lengths = [
+            ("point_markers", markers(of_points, points), of_points),
+            ("segment_markers", markers(of_segments, segments), of_segments),
+            ("point_attributes", attributes, self.point_attributes.len()),
+        ];
+        let lengths = lengths.into_iter().filter(|(_, expected, found)| expected != found);
+        let lengths =
+            lengths.map(|(array, expected, found)| PslgLayoutError::Length { array, expected, found });
+        ends.chain(borders).chain(lengths)
     }
-}
-
-fn length(array: &'static str, expected: usize, found: usize) -> Result<(), PslgLayoutError> {
-    if found == expected {
-        return Ok(());
-    }
-    Err(PslgLayoutError::Length { array, expected, found })
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ pub enum PointFormat {
     Csv,
     /// A table with tabs and a header, `.tsv`.
     Tsv,
-    /// `GeoJSON` (RFC 7946), `.geojson`. Read only.
+    /// `GeoJSON` (RFC 7946), `.geojson`, or a sequence of it, `.geojsonl`. Read only.
     GeoJson,
     /// Well-known text, `.wkt`. Read only.
     Wkt,
@@ -44,6 +44,7 @@ const POINT_NAMES: Names<PointFormat> = &[
     ("txt", PointFormat::Table),
     ("pts", PointFormat::Table),
     ("geojson", PointFormat::GeoJson),
+    ("geojsonl", PointFormat::GeoJson),
     ("wkt", PointFormat::Wkt),
     ("json", PointFormat::Json),
     ("cgshop", PointFormat::CgShop),
@@ -76,7 +77,8 @@ impl PointFormat {
     pub const EXTENSIONS: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron";
 
     /// The extensions that points are read from, for messages.
-    pub const READABLE: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .wkt, .json, .ron";
+    pub const READABLE: &str =
+        ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .geojsonl, .wkt, .json, .ron";
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {

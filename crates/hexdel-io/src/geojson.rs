@@ -1,7 +1,8 @@
 //! `GeoJSON` (RFC 7946): reading features and bare geometries.
 //!
 //! All geometries are read; further coordinates such as heights, properties and other
-//! members are left. Features are numbered from 1 in the order of the file, null
+//! members are left. A text may be a sequence of objects, one a line or each after a record
+//! separator (RFC 8142). Features are numbered from 1 in the order of the file, null
 //! geometries included; geometries of a collection that is no feature count each as
 //! one. What becomes of them is said in [`shapes`](crate::shapes).
 //!
@@ -14,21 +15,20 @@ use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor
 use std::fmt;
 
 use crate::error::ReadError;
-use crate::json::{Source, parse};
+use crate::json::{Source, sequence};
 use crate::shapes::{GraphBuilder, Shape};
 
 /// Reads a text.
 pub(crate) fn read_geojson(source: &Source<'_>) -> Result<Pslg, ReadError> {
-    let object: Object = parse(source)?;
     let mut builder = GraphBuilder::new(source.file);
-    let features = match object {
-        Object::Features(features) => features,
-        Object::Shape(Shape::Collection(shapes)) => shapes,
-        Object::Shape(shape) => vec![shape],
-    };
-    for shape in features {
-        builder.feature(shape, 0)?;
-    }
+    sequence(source, |object| {
+        let features = match object {
+            Object::Features(features) => features,
+            Object::Shape(Shape::Collection(shapes)) => shapes,
+            Object::Shape(shape) => vec![shape],
+        };
+        features.into_iter().try_for_each(|shape| builder.feature(shape, 0))
+    })?;
     Ok(builder.finish())
 }
 
@@ -79,7 +79,10 @@ impl TryFrom<Members> for Object {
                 Self::Features(shapes(features))
             }
             // A feature may have no place.
-            Kind::Feature => Self::Features(shapes(members.geometry.map(|g| *g).into_iter().collect())),
+            Kind::Feature => {
+                let shape = members.geometry.map_or(Shape::Collection(Vec::new()), |object| object.shape());
+                Self::Features(vec![shape])
+            }
             Kind::GeometryCollection => {
                 let geometries = members.geometries.ok_or("a GeometryCollection without geometries")?;
                 Self::Shape(Shape::Collection(shapes(geometries)))
@@ -243,6 +246,31 @@ mod tests {
         }
         let nowhere = r#"{"type":"FeatureCollection","features":[{"type":"Feature","geometry":null}]}"#;
         assert_eq!(read(nowhere).unwrap(), Pslg::default());
+    }
+
+    #[test]
+    fn sequences_are_read_as_one_text() {
+        let features = [(0, 0), (9, 0)].map(|(x, y)| {
+            format!(r#"{{"type":"Feature","geometry":{{"type":"Point","coordinates":[{x},{y}]}}}}"#)
+        });
+        let [a, b] = &features;
+        let nowhere = r#"{"type":"Feature","geometry":null}"#;
+        for text in [
+            format!("{a}\n{nowhere}\n{b}\n"),
+            format!("\u{1e}{a}\n\u{1e}{nowhere}\n\u{1e}{b}\n"),
+            format!(r#"{{"type":"FeatureCollection","features":[{a},{nowhere}]}} {b}"#),
+        ] {
+            let pslg = read(&text).unwrap();
+            assert_eq!(pslg.points, [DVec2::ZERO, DVec2::new(9.0, 0.0)], "{text}");
+            assert_eq!(pslg.point_markers, [1, 3], "{text}");
+        }
+        // A fault has its line, wherever it is, and nothing else may follow.
+        for text in [format!("{a}\n{{}}\n"), format!("{a}\nx\n")] {
+            let error = read(&text).unwrap_err().to_string();
+            assert!(error.starts_with("f:2:"), "{error}");
+        }
+        let error = read(&format!("{a}\n{a}\n,{b}")).unwrap_err().to_string();
+        assert!(error.starts_with("f:3:1: expected value"), "{error}");
     }
 
     #[test]

@@ -20,6 +20,7 @@
 //! `additional_constraints`, which get marker 2.
 
 use std::io::{self, Write};
+use std::mem::discriminant;
 
 use hexdel_geom::{DVec2, Polygon, Pslg, Region};
 use serde::Deserialize;
@@ -27,7 +28,8 @@ use serde::de::IgnoredAny;
 
 use crate::error::{ReadError, WriteError};
 use crate::geojson::read_geojson;
-use crate::json::{Source, parse};
+use crate::json::{Source, first, parse};
+use crate::mend::Faults;
 use crate::text::TextWriter;
 
 /// What tells the kinds of JSON apart.
@@ -41,7 +43,7 @@ struct Kinds {
 
 /// Reads a graph of our own, `GeoJSON` or an instance of CG:SHOP, whatever it is.
 pub(crate) fn read_any_json(source: &Source<'_>) -> Result<Pslg, ReadError> {
-    let kinds: Kinds = parse(source)?;
+    let kinds: Kinds = first(source)?;
     if kinds.points_x.is_some() {
         read_cgshop(source)
     } else if kinds.r#type.is_some() && kinds.points.is_none() {
@@ -94,16 +96,21 @@ impl GraphDocument {
 
 /// A graph whose arrays fit together and whose positions are finite.
 fn check_graph(pslg: Pslg, file: &str) -> Result<Pslg, ReadError> {
-    pslg.check_layout().map_err(|source| ReadError::Layout { file: file.to_owned(), source })?;
+    let mut faults = Faults::default();
+    let first = pslg.layout_errors().next().map(|error| discriminant(&error));
+    for source in pslg.layout_errors().filter(|error| Some(discriminant(error)) == first) {
+        faults.note::<()>(Err(ReadError::Layout { file: file.to_owned(), source }))?;
+    }
+    faults.take()?;
     let regions: Vec<DVec2> = pslg.regions.iter().map(|r| r.point).collect();
     for (item, points) in [("point", &pslg.points), ("hole", &pslg.holes), ("region", &regions)] {
-        if let Some(index) = points.iter().position(|p| !p.is_finite()) {
-            let p = points[index];
+        for (p, index) in points.iter().zip(0..).filter(|(p, _)| !p.is_finite()) {
             let found = if p.x.is_finite() { p.y } else { p.x }.to_string();
-            let (file, index) = (file.to_owned(), index as u64);
-            return Err(ReadError::NonFinite { file, line: 0, column: 0, item, index, found });
+            let file = file.to_owned();
+            faults.note::<()>(Err(ReadError::NonFinite { file, line: 0, column: 0, item, index, found }))?;
         }
     }
+    faults.take()?;
     Ok(pslg)
 }
 
@@ -117,6 +124,12 @@ struct Instance {
     #[serde(default)]
     additional_constraints: Vec<[i64; 2]>,
 }
+
+/// The marker of segments of the boundary.
+const BOUNDARY: i32 = 1;
+
+/// The marker of segments inside.
+const CONSTRAINT: i32 = 2;
 
 /// Reads an instance of CG:SHOP 2025.
 pub(crate) fn read_cgshop(source: &Source<'_>) -> Result<Pslg, ReadError> {
@@ -134,8 +147,9 @@ pub(crate) fn read_cgshop(source: &Source<'_>) -> Result<Pslg, ReadError> {
     let positions = instance.points_x.into_iter().zip(instance.points_y);
     let mut pslg = Pslg::from_points(positions.map(|(x, y)| DVec2::new(x, y)).collect());
     let boundary = &instance.region_boundary;
-    let ring = boundary.iter().zip(boundary.iter().cycle().skip(1)).map(|(&a, &b)| ([a, b], 1));
-    let inner = instance.additional_constraints.iter().map(|&ends| (ends, 2));
+    let ring = boundary.iter().zip(boundary.iter().cycle().skip(1)).map(|(&a, &b)| ([a, b], BOUNDARY));
+    let inner = instance.additional_constraints.iter().map(|&ends| (ends, CONSTRAINT));
+    let mut faults = Faults::default();
     for (ends, marker) in ring.chain(inner) {
         let end = |index: i64| match u32::try_from(index) {
             Ok(end) if (end as usize) < count => Ok(end),
@@ -148,9 +162,14 @@ pub(crate) fn read_cgshop(source: &Source<'_>) -> Result<Pslg, ReadError> {
                 points: count as u64,
             }),
         };
-        pslg.segments.push([end(ends[0])?, end(ends[1])?]);
+        let [a, b] = ends.map(end);
+        // A corner of the boundary ends two segments, and is told of once.
+        let b = if marker == BOUNDARY { b.or(Ok(0)) } else { b };
+        let (a, b) = (faults.note(a)?, faults.note(b)?);
+        pslg.segments.extend(a.zip(b).map(|(a, b)| [a, b]));
         pslg.segment_markers.push(marker);
     }
+    faults.take()?;
     check_graph(pslg, source.file)
 }
 
@@ -267,6 +286,17 @@ mod tests {
             ("{\"points\": [[1, 2]], \"segments\": [[0, 1]]}", "f: segment 0 ends at point 1, of 1 points"),
             ("{\"points\": [[1, 2]], \"point_markers\": [1, 2]}", "f: point_markers has 2 entries"),
             ("{\"points_x\": [1], \"points_y\": []}", "f: 0 points_y instead of 1"),
+            (
+                "{\"points\": [[1, 2]], \"segments\": [[0, 1], [2, 0], [3, 4], [0, 0], [5, 6]], \"point_markers\": [1, 2]}",
+                "f: segment 0 ends at point 1, of 1 points\nf: segment 1 ends at point 2, of 1 points\n\
+                 f: segment 2 ends at point 3, of 1 points\nf: segment 2 ends at point 4, of 1 points\n\
+                 f: segment 4 ends at point 5, of 1 points\nand 1 more of the kind",
+            ),
+            (
+                "{\"points_x\": [1], \"points_y\": [1], \"region_boundary\": [0, 7, 8], \"additional_constraints\": [[9, 0]]}",
+                "f: no point 7, there are 1 counted from 0\nf: no point 8, there are 1 counted from 0\n\
+                 f: no point 9, there are 1 counted from 0",
+            ),
             (
                 "{\"points_x\": [1], \"points_y\": [1], \"region_boundary\": [-1]}",
                 "f: no point -1, there are 1",

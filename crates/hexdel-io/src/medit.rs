@@ -11,6 +11,7 @@ use hexdel_geom::{DVec2, TriMesh, VertexId};
 use crate::data::MeshData;
 use crate::error::{ReadError, WriteError};
 use crate::lines::Comments;
+use crate::mend::Faults;
 use crate::text::TextWriter;
 use crate::tokens::Tokens;
 use crate::view::{MarkedEdge, MeshView};
@@ -104,7 +105,7 @@ pub(crate) fn read_medit(reader: impl BufRead, file: &str) -> Result<MeshData, R
             },
         }
     }
-    parts.finish(&tokens)
+    parts.finish(&mut tokens)
 }
 
 /// What has been read.
@@ -116,8 +117,8 @@ struct Parts {
     edges: Vec<MarkedEdge>,
     triangles: Vec<[VertexId; 3]>,
     regions: Vec<f64>,
-    /// The largest index of a vertex, from 1, and its line.
-    largest: (u64, u64),
+    /// Indices of vertices, from 1, that were not there yet, with their lines.
+    ahead: Vec<(u32, u64)>,
 }
 
 impl Parts {
@@ -125,8 +126,10 @@ impl Parts {
         let count = tokens.count("the number of vertices", "vertices", MAX_ITEMS)?;
         for index in 0..count {
             tokens.item("vertices", index, count)?;
-            self.vertices.push(tokens.position(index + 1, self.heights)?);
-            self.markers.push(tokens.parse("a reference")?);
+            let position = tokens.position(index + 1, self.heights);
+            let marker = tokens.parse::<i32>("a reference");
+            self.vertices.extend(tokens.note(position)?);
+            self.markers.extend(tokens.note(marker)?);
         }
         Ok(())
     }
@@ -135,8 +138,10 @@ impl Parts {
         let count = tokens.count("the number of edges", "edges", MAX_ITEMS)?;
         for index in 0..count {
             tokens.item("edges", index, count)?;
-            let ends = [self.vertex(tokens)?, self.vertex(tokens)?];
-            self.edges.push(MarkedEdge { ends, marker: tokens.parse("a reference")? });
+            let ends = self.corners(tokens);
+            let marker = tokens.parse::<i32>("a reference");
+            let (ends, marker) = (tokens.note(ends)?, tokens.note(marker)?);
+            self.edges.extend(ends.zip(marker).map(|(ends, marker)| MarkedEdge { ends, marker }));
         }
         Ok(())
     }
@@ -145,11 +150,28 @@ impl Parts {
         let count = tokens.count("the number of triangles", "triangles", MAX_ITEMS)?;
         for index in 0..count {
             tokens.item("triangles", index, count)?;
-            let corners = [self.vertex(tokens)?, self.vertex(tokens)?, self.vertex(tokens)?];
-            self.triangles.push(corners);
-            self.regions.push(f64::from(tokens.parse::<i32>("a reference")?));
+            let corners = self.corners(tokens);
+            let region = tokens.parse::<i32>("a reference").map(f64::from);
+            self.triangles.extend(tokens.note(corners)?);
+            self.regions.extend(tokens.note(region)?);
         }
         Ok(())
+    }
+
+    /// So many vertices, all of which are read whatever they are.
+    fn corners<R: BufRead, const N: usize>(
+        &mut self,
+        tokens: &mut Tokens<R>,
+    ) -> Result<[VertexId; N], ReadError> {
+        let mut all = Ok([VertexId::new(0); N]);
+        for i in 0..N {
+            match (self.vertex(tokens), &mut all) {
+                (Ok(vertex), Ok(corners)) => corners[i] = vertex,
+                (Err(error), Ok(_)) => all = Err(error),
+                (_, Err(_)) => {}
+            }
+        }
+        all
     }
 
     /// A vertex, which may be still to come.
@@ -158,24 +180,22 @@ impl Parts {
         let Some(from_0) = index.checked_sub(1) else {
             return Err(tokens.malformed("the index of a vertex, from 1", None));
         };
-        if u64::from(index) > self.largest.0 {
-            self.largest = (u64::from(index), tokens.line());
+        if index as usize > self.vertices.len() {
+            self.ahead.push((index, tokens.line()));
         }
         Ok(VertexId::new(from_0 as usize))
     }
 
-    fn finish<R: BufRead>(self, tokens: &Tokens<R>) -> Result<MeshData, ReadError> {
-        let (index, line) = self.largest;
-        if index > self.vertices.len() as u64 {
-            return Err(ReadError::IndexOutOfRange {
-                file: tokens.file().to_owned(),
-                line,
-                column: 0,
-                index: index as i64,
-                first: 1,
-                points: self.vertices.len() as u64,
-            });
+    fn finish<R: BufRead>(self, tokens: &mut Tokens<R>) -> Result<MeshData, ReadError> {
+        tokens.settle()?;
+        let points = self.vertices.len() as u64;
+        let mut faults = Faults::default();
+        for &(index, line) in self.ahead.iter().filter(|ahead| u64::from(ahead.0) > points) {
+            let (file, index) = (tokens.file().to_owned(), i64::from(index));
+            let missing = ReadError::IndexOutOfRange { file, line, column: 0, index, first: 1, points };
+            faults.note::<()>(Err(missing))?;
         }
+        faults.take()?;
         Ok(MeshData {
             mesh: TriMesh { vertices: self.vertices, triangles: self.triangles },
             vertex_markers: self.markers.iter().any(|&m| m != 0).then_some(self.markers),
@@ -229,19 +249,34 @@ mod tests {
                 "Dimension 3 Vertices 1\n0 0 1 0",
                 "f:3: expected the z coordinate 0 of a plane mesh, found \"1\"",
             ),
+            (
+                "Vertices 3\n0 x 0\n0 0 0\ny z w\nEnd",
+                "f:3: expected the y coordinate, found \"x\"\nf:5: expected the x coordinate, found \"y\"\n\
+                 f:5: expected a reference, found \"w\"",
+            ),
+            (
+                "Vertices 3\n0 x\n0 0 0\n1 0 0\nTriangles 1 2 3\n",
+                "f:3: expected the y coordinate, found \"x\"\nf:6: expected a reference, found \"Triangles\"",
+            ),
+            (
+                "Vertices 1 0 0 0\nTriangles 2\n1 2 3 0\n1 7 8 0",
+                "f:4: no point 2, there are 1 counted from 1\nf:4: no point 3, there are 1 counted from 1\n\
+                 f:5: no point 7, there are 1 counted from 1\nf:5: no point 8, there are 1 counted from 1",
+            ),
             ("Vertices 1\n0 inf 0", "f:3: coordinate inf of point 1 is not finite"),
-            ("Triangles 1 1 2 3 0", "f:2: no point 3, there are 0 counted from 1"),
+            (
+                "Triangles 1 1 2 3 0",
+                "f:2: no point 1, there are 0 counted from 1\nf:2: no point 2, there are 0 counted from 1\n\
+                 f:2: no point 3, there are 0 counted from 1",
+            ),
             ("Triangles 1 1 0 3 0", "f:2: expected the index of a vertex, from 1, found \"0\""),
             ("Edges 1 1 -1", "f:2: expected the index of a vertex, from 1, found \"-1\""),
             ("Quadrilaterals 1\n1 2 3 4 0", "f:2: a section Quadrilaterals cannot be read"),
             ("Ridges 99999999999\n1", "f:3: file ends after 1 of 99999999999 items"),
             ("Faces 1", "f:2: expected a section of a Medit file, found \"Faces\""),
         ] {
-            let head = if message.starts_with("f:2") || message.starts_with("f:3") {
-                "MeshVersionFormatted 2\n"
-            } else {
-                ""
-            };
+            let is_headed = !["f: ", "f:1"].iter().any(|start| message.starts_with(start));
+            let head = if is_headed { "MeshVersionFormatted 2\n" } else { "" };
             assert_eq!(read(&format!("{head}{text}")).unwrap_err().to_string(), message);
         }
     }

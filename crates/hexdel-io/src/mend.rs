@@ -80,7 +80,7 @@ impl Mends {
     }
 }
 
-/// Faults of rows, of which several of a kind are told together.
+/// Faults of rows or items, of which several of a kind are told together.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
     errors: Vec<ReadError>,
@@ -97,7 +97,10 @@ impl Faults {
         };
         let of_a_row = matches!(
             error,
-            ReadError::Malformed { .. } | ReadError::NonFinite { .. } | ReadError::IndexOutOfRange { .. }
+            ReadError::Malformed { .. }
+                | ReadError::NonFinite { .. }
+                | ReadError::IndexOutOfRange { .. }
+                | ReadError::Layout { .. }
         );
         if !of_a_row {
             // What was found before comes first.

@@ -35,7 +35,10 @@ pub(crate) fn read_msh(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
             return Err(msh.tokens.malformed("a section, \"$..\"", Some(found)));
         };
         let section = section.to_owned();
-        msh.section(&section)?;
+        let read = msh.section(&section);
+        // What was found in a section before comes first.
+        msh.tokens.settle()?;
+        read?;
     }
     msh.finish()
 }
@@ -229,7 +232,9 @@ impl<R: BufRead> Msh<R> {
 
     fn node(&mut self) -> Result<(), ReadError> {
         let index = self.nodes.tag(self.mesh.vertices.len());
-        let position = self.tokens.position(index, true)?;
+        let position = self.tokens.position(index, true);
+        // A vertex in the place of one with a fault, so that numbers stay right.
+        let position = self.tokens.note(position)?.unwrap_or_default();
         self.mesh.vertices.push(position);
         Ok(())
     }
@@ -283,20 +288,36 @@ impl<R: BufRead> Msh<R> {
     fn element(&mut self, tag: u64, kind: u64, group: i32) -> Result<(), ReadError> {
         match kind {
             POINT => {
-                let vertex = self.vertex()?.index() as u32;
-                self.points.push((vertex, group));
+                if let Some([vertex]) = self.corners()? {
+                    self.points.push((vertex.index() as u32, group));
+                }
             }
             LINE => {
-                let ends = [self.vertex()?, self.vertex()?];
-                self.edges.push(tag, MarkedEdge { ends, marker: group });
+                if let Some(ends) = self.corners()? {
+                    self.edges.push(tag, MarkedEdge { ends, marker: group });
+                }
             }
             TRIANGLE => {
-                let corners = [self.vertex()?, self.vertex()?, self.vertex()?];
-                self.triangles.push(tag, (corners, group));
+                if let Some(corners) = self.corners()? {
+                    self.triangles.push(tag, (corners, group));
+                }
             }
             _ => return Err(self.tokens.unsupported(format!("an element of type {kind}"))),
         }
         Ok(())
+    }
+
+    /// So many vertices; none where there is a fault in one.
+    fn corners<const N: usize>(&mut self) -> Result<Option<[VertexId; N]>, ReadError> {
+        let mut corners = Some([VertexId::new(0); N]);
+        for i in 0..N {
+            let vertex = self.vertex();
+            match (self.tokens.note(vertex)?, &mut corners) {
+                (Some(vertex), Some(corners)) => corners[i] = vertex,
+                _ => corners = None,
+            }
+        }
+        Ok(corners)
     }
 
     fn vertex(&mut self) -> Result<VertexId, ReadError> {

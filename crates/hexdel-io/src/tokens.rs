@@ -11,6 +11,7 @@ use hexdel_geom::DVec2;
 
 use crate::error::ReadError;
 use crate::lines::{Comments, Lines, clip, quote};
+use crate::mend::Faults;
 
 /// The words of a file.
 pub(crate) struct Tokens<R> {
@@ -19,11 +20,15 @@ pub(crate) struct Tokens<R> {
     row: String,
     /// How much of it has been read, bytes.
     done: usize,
+    faults: Faults,
+    /// Whether the name of another section was found where a number was due.
+    is_beyond: bool,
 }
 
 impl<R: BufRead> Tokens<R> {
     pub(crate) fn new(reader: R, file: &str, comments: Comments) -> Self {
-        Self { lines: Lines::new(reader, file, comments), row: String::new(), done: 0 }
+        let lines = Lines::new(reader, file, comments);
+        Self { lines, row: String::new(), done: 0, faults: Faults::default(), is_beyond: false }
     }
 
     /// The number of the line last read.
@@ -37,10 +42,8 @@ impl<R: BufRead> Tokens<R> {
 
     /// The next word, `None` at the end of the file.
     pub(crate) fn word(&mut self) -> Result<Option<&str>, ReadError> {
-        while self.rest().is_empty() {
-            if !self.next_row()? {
-                return Ok(None);
-            }
+        if !self.goes_on()? {
+            return Ok(None);
         }
         let start = self.row.len() - self.rest().len();
         let length = self.row[start..].find(|c: char| c.is_ascii_whitespace());
@@ -52,10 +55,8 @@ impl<R: BufRead> Tokens<R> {
     /// Takes the rest of the line, or the next line if nothing is left of it; `None`
     /// at the end of the file.
     pub(crate) fn line_text(&mut self) -> Result<Option<&str>, ReadError> {
-        while self.rest().is_empty() {
-            if !self.next_row()? {
-                return Ok(None);
-            }
+        if !self.goes_on()? {
+            return Ok(None);
         }
         let start = self.row.len() - self.rest().len();
         self.done = self.row.len();
@@ -76,24 +77,62 @@ impl<R: BufRead> Tokens<R> {
         Ok(true)
     }
 
+    /// What an item came to that was read to its last word: nothing, where there is a fault in it.
+    ///
+    /// An error only if reading cannot go on, as at the end of the file.
+    pub(crate) fn note<T>(&mut self, item: Result<T, ReadError>) -> Result<Option<T>, ReadError> {
+        let item = self.faults.note(item)?;
+        if item.is_none() && (self.is_beyond || !self.goes_on()?) {
+            // What is left of the file is no items: faults found there would be those of the reading.
+            self.settle()?;
+        }
+        Ok(item)
+    }
+
+    /// The faults that were noted, if there are any.
+    pub(crate) fn settle(&mut self) -> Result<(), ReadError> {
+        self.faults.take()
+    }
+
+    /// Whether there is another word.
+    fn goes_on(&mut self) -> Result<bool, ReadError> {
+        while self.rest().is_empty() {
+            if !self.next_row()? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// The next word as a number or anything else that is parsed.
     pub(crate) fn parse<T: FromStr>(&mut self, expected: &'static str) -> Result<T, ReadError> {
         let parsed = match self.word()? {
             None => Err(None),
-            Some(word) => word.parse().map_err(|_| Some(quote(word))),
+            Some(word) => word.parse().map_err(|_| Some((is_name(word), quote(word)))),
         };
-        parsed.map_err(|found| self.malformed(expected, found))
+        if let Err(Some((is_name, _))) = parsed {
+            self.is_beyond |= is_name;
+        }
+        parsed.map_err(|found| found.map(|(_, word)| word)).map_err(|found| self.malformed(expected, found))
     }
 
     /// The next two words as a position, three if `heights`, of which the last
     /// must be 0.
+    ///
+    /// All of them are read whatever they are, so that what follows can be.
     pub(crate) fn position(&mut self, index: u64, heights: bool) -> Result<DVec2, ReadError> {
-        let x = self.coordinate("the x coordinate", index)?;
-        let y = self.coordinate("the y coordinate", index)?;
-        if heights && self.parse::<f64>("the z coordinate")? != 0.0 {
-            return Err(self.malformed("the z coordinate 0 of a plane mesh", None));
+        let x = self.coordinate("the x coordinate", index);
+        let y = self.coordinate("the y coordinate", index);
+        let z = if heights { self.height() } else { Ok(()) };
+        let position = DVec2::new(x?, y?);
+        z.map(|()| position)
+    }
+
+    fn height(&mut self) -> Result<(), ReadError> {
+        match self.parse("the z coordinate")? {
+            0.0 => Ok(()),
+            _ => Err(self.malformed("the z coordinate 0 of a plane mesh", None)),
         }
-        Ok(DVec2::new(x, y))
     }
 
     fn coordinate(&mut self, expected: &'static str, index: u64) -> Result<f64, ReadError> {
@@ -133,18 +172,13 @@ impl<R: BufRead> Tokens<R> {
 
     /// Checks that the file goes on where item `found` of `expected` is due.
     pub(crate) fn item(&mut self, section: &'static str, found: u64, expected: u64) -> Result<(), ReadError> {
-        while self.rest().is_empty() {
-            if !self.next_row()? {
-                return Err(ReadError::Truncated {
-                    file: self.file().to_owned(),
-                    line: self.line(),
-                    section,
-                    expected,
-                    found,
-                });
-            }
+        if self.goes_on()? {
+            return Ok(());
         }
-        Ok(())
+        let (file, line) = (self.file().to_owned(), self.line());
+        // What was found before comes first.
+        self.settle()?;
+        Err(ReadError::Truncated { file, line, section, expected, found })
     }
 
     /// What was found is a quotation, by default the last word.
@@ -157,6 +191,11 @@ impl<R: BufRead> Tokens<R> {
     pub(crate) fn unsupported(&self, what: String) -> ReadError {
         ReadError::Unsupported { file: self.file().to_owned(), line: self.line(), what }
     }
+}
+
+/// Whether a word looks like the name of a section.
+fn is_name(word: &str) -> bool {
+    word.starts_with(|c: char| c == '$' || c.is_ascii_uppercase())
 }
 
 #[cfg(test)]

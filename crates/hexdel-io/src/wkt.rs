@@ -17,6 +17,7 @@ use hexdel_geom::{DVec2, Pslg};
 
 use crate::error::ReadError;
 use crate::lines::{clip, quote};
+use crate::mend::Faults;
 use crate::shapes::{GraphBuilder, Shape};
 
 /// The longest word or number, bytes.
@@ -27,8 +28,15 @@ const MAX_DEPTH: usize = 64;
 
 /// Reads a text.
 pub(crate) fn read_wkt(reader: impl BufRead, file: &str) -> Result<Pslg, ReadError> {
-    let mut parser = Parser { scanner: Scanner::new(reader, file)?, points: 0 };
+    let mut parser = Parser { scanner: Scanner::new(reader, file)?, points: 0, faults: Faults::default() };
     let mut builder = GraphBuilder::new(file);
+    let read = read_geometries(&mut parser, &mut builder);
+    // What is wrong with numbers was found before.
+    parser.faults.take()?;
+    read.map(|()| builder.finish())
+}
+
+fn read_geometries<R: BufRead>(parser: &mut Parser<R>, builder: &mut GraphBuilder) -> Result<(), ReadError> {
     while let Some(shape) = parser.next_geometry()? {
         let line = parser.scanner.line;
         match shape {
@@ -38,13 +46,15 @@ pub(crate) fn read_wkt(reader: impl BufRead, file: &str) -> Result<Pslg, ReadErr
             shape => builder.feature(shape, line)?,
         }
     }
-    Ok(builder.finish())
+    Ok(())
 }
 
 struct Parser<R> {
     scanner: Scanner<R>,
     /// Positions so far, for errors.
     points: u64,
+    /// Of numbers.
+    faults: Faults,
 }
 
 impl<R: BufRead> Parser<R> {
@@ -149,19 +159,20 @@ impl<R: BufRead> Parser<R> {
         let Token::Word(word) = &self.scanner.token else {
             return Err(self.scanner.malformed(expected));
         };
-        let Ok(number) = word.parse::<f64>() else {
-            return Err(self.scanner.malformed(expected));
-        };
-        if !number.is_finite() {
-            return Err(ReadError::NonFinite {
+        let number = match word.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            Ok(_) => Err(ReadError::NonFinite {
                 file: self.scanner.file.clone(),
                 line: self.scanner.line,
                 column: 0,
                 item: "point",
                 index: self.points,
                 found: clip(word),
-            });
-        }
+            }),
+            Err(_) => Err(self.scanner.malformed(expected)),
+        };
+        // Whatever stands for one with a fault: nothing is made of the text.
+        let number = self.faults.note(number)?.unwrap_or_default();
         self.scanner.advance()?;
         Ok(number)
     }
@@ -328,6 +339,12 @@ mod tests {
             ("POINT (1 2 3 4 5)", "f:1: expected \",\" or \")\", found \"5\""),
             ("LINESTRING (1 2,\n\n 3 x)", "f:3: expected the y coordinate, found \"x\""),
             ("LINESTRING (1 2, inf 0)", "f:1: coordinate inf of point 1 is not finite"),
+            (
+                "LINESTRING (a 2, 3 b,\n c d, 1 2), POINT (e f",
+                "f:1: expected the x coordinate, found \"a\"\nf:1: expected the y coordinate, found \"b\"\n\
+                 f:2: expected the x coordinate, found \"c\"\nf:2: expected the y coordinate, found \"d\"\n\
+                 f:2: expected the x coordinate, found \"e\"\nand 1 more of the kind",
+            ),
             ("POLYGON (1 2, 3 4)", "f:1: expected \"(\" or EMPTY, found \"1\""),
             ("POINT (1 2))", "f:1: expected the name of a geometry, found \")\""),
             ("SRID 4326;POINT (1 2)", "f:1: expected \"=\" after SRID, found \"4326\""),

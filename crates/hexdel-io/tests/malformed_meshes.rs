@@ -49,6 +49,19 @@ fn msh_of_both_versions() {
             "f:12: expected the number of a node that is there, found \"4\"",
         ),
         (
+            v2(&format!("{nodes}$Elements\n2\n1 2 2 0 1 9 2 4\n1 2 2 0 1 1 x 5\n$EndElements\n")),
+            "f:12: expected the number of a node that is there, found \"9\"\n\
+             f:12: expected the number of a node that is there, found \"4\"\n\
+             f:13: expected the number of a node, found \"x\"\n\
+             f:13: expected the number of a node that is there, found \"5\"",
+        ),
+        (
+            v2("$Nodes\n3\n1 0 z 0\n2 1 0 1\n3 0 y 0\n$EndNodes\n$Elements\nx"),
+            "f:6: expected the y coordinate, found \"z\"\n\
+             f:7: expected the z coordinate 0 of a plane mesh, found \"1\"\n\
+             f:8: expected the y coordinate, found \"y\"",
+        ),
+        (
             v2(&format!("{nodes}$Elements\n1\n1 2 2 0 1 1 2\n$EndElements")),
             "f:13: expected the number of a node, found \"$EndElements\"",
         ),
