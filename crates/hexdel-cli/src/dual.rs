@@ -1,6 +1,7 @@
 //! `hexdel dual`: the Voronoi dual of a mesh, whoever made it.
 
 use crate::exit::{Failure, Outcome, Verdict, print};
+use crate::input::{Formats, is_stream, names, read_mesh_data};
 use crate::outputs::Outputs;
 use hexdel::geom::{Voronoi, VoronoiSummary};
 use std::path::PathBuf;
@@ -18,11 +19,14 @@ use std::path::PathBuf;
     hexdel dual mesh.ele -o cells.vtu\n  \
     hexdel dual mesh.vtu -o mesh.v.node --json")]
 pub(crate) struct Args {
-    /// Mesh, in any format that is read
+    /// Mesh, in any format that is read, - for standard input
     mesh: PathBuf,
     /// File to write; may be given several times
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
+    /// Format of MESH if that is -
+    #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
+    format: Option<String>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -31,11 +35,14 @@ pub(crate) struct Args {
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
     let mut outputs = Outputs::default();
-    outputs.protect_input(&args.mesh);
+    if !is_stream(&args.mesh) {
+        outputs.protect_input(&args.mesh);
+    }
     for path in &args.output {
         outputs.add_dual(path)?;
     }
-    let mesh = hexdel_io::read_mesh(&args.mesh)?;
+    let formats = Formats::named(args.format.as_ref());
+    let mesh = formats.beside(&args.mesh, None).and_then(|_| read_mesh_data(&args.mesh, &formats))?.mesh;
     let file = args.mesh.display().to_string();
     let dual = Voronoi::new(&mesh).map_err(|source| Failure::Voronoi { file: file.clone(), source })?;
     outputs.write(|_, path| Ok(hexdel_io::write_dual(path, &mesh, &dual)?))?;

@@ -42,6 +42,11 @@ pub(crate) struct Streams {
 }
 
 impl Formats {
+    /// That of standard input alone.
+    pub(crate) fn named(format: Option<&String>) -> Self {
+        Self { format: format.cloned(), ..Self::default() }
+    }
+
     /// An error if an option is given that nothing is there for.
     pub(crate) fn refuse_unused(&self, streams: &Streams) -> Result<(), Failure> {
         let of_input = self.input_format.is_none() && streams.input;
@@ -65,9 +70,17 @@ impl Formats {
         named(self.format.as_ref(), MeshFormat::from_name, "meshes", "output")
     }
 
-    /// What files need of them beside a stream.
-    pub(crate) fn of_files(&self) -> Self {
-        Self { columns: self.columns.clone(), ..Self::default() }
+    /// What the points beside a mesh are read with: of two files only one can be standard input, and
+    /// the formats are those of the mesh if that is.
+    pub(crate) fn beside(&self, mesh: &Path, points: Option<&Path>) -> Result<Self, Failure> {
+        let [mesh_is, points_are] = [Some(mesh), points].map(|path| path.is_some_and(is_stream));
+        self.refuse_unused(&Streams {
+            input: mesh_is || points_are,
+            output: false,
+            points: points.is_some(),
+        })?;
+        let files = Self { columns: self.columns.clone(), ..Self::default() };
+        Ok(if mesh_is { files } else { self.clone() })
     }
 
     fn of_input(&self) -> Option<&String> {

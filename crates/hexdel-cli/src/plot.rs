@@ -1,7 +1,7 @@
 //! `hexdel plot`: pictures of meshes, and the options that all pictures have.
 
 use crate::exit::{Failure, Outcome, Verdict};
-use crate::input::{Formats, Streams, is_stream, read_graph, read_mesh_data};
+use crate::input::{Formats, read_graph, read_mesh_data};
 use crate::outputs::Outputs;
 use clap::ValueEnum;
 use hexdel::{AngleBounds, DVec2, TriMesh};
@@ -123,14 +123,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
         return Err(Failure::NoHexagons { of: format!("{}: a mesh file", args.mesh.display()) });
     }
     let bounds = AngleBounds::new(args.min_angle, args.max_angle)?;
-    let is_input = args.input.as_deref().is_some_and(is_stream);
-    args.formats.refuse_unused(&Streams {
-        input: is_stream(&args.mesh) || is_input,
-        output: false,
-        points: args.input.is_some(),
-    })?;
-    // Of two files only one can be standard input.
-    let of_input = if is_stream(&args.mesh) { args.formats.of_files() } else { args.formats.clone() };
+    let of_input = args.formats.beside(&args.mesh, args.input.as_deref())?;
     let read = |path| read_graph(path, &of_input).map(|file| file.pslg.points);
     let points = args.input.as_deref().map(read).transpose()?;
     let mut data = read_mesh_data(&args.mesh, &args.formats)?;

@@ -34,3 +34,18 @@ fn what_has_no_dual_is_refused() {
     bench.run("dual m.ele -o m.v.xyz").refused("expected one of .vtu, .v.node, .v.edge");
     assert_eq!(bench.names(), ["m.ele", "m.node"]);
 }
+
+#[test]
+fn a_mesh_comes_through_a_pipe() {
+    let bench = Bench::new();
+    let mesh = b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let run = bench.fed("dual - --format off -o cells.vtu", mesh);
+    run.fine();
+    assert!(run.out.starts_with("-: 3 edges"), "{}", run.out);
+    assert_eq!(bench.names(), ["cells.vtu"]);
+    let run = bench.fed("dual -", mesh);
+    run.refused("standard input has no extension to tell its format");
+    assert!(run.err.contains("help: name it with --format\n"), "{}", run.err);
+    bench.file("m.off", mesh);
+    bench.run("dual m.off --format off").refused("--format has no effect: it names the format of -");
+}
