@@ -335,7 +335,7 @@ fn text_that_is_no_session_is_refused() {
     let mut at = 0;
     while let Some(start) = saved[at..].find(|c: char| c.is_ascii_digit()).map(|i| i + at) {
         let end = saved[start..].find(|c: char| !c.is_ascii_digit()).map_or(saved.len(), |i| i + start);
-        for other in ["0", "1", "7", "255", "4294967296", "18446744073709551615"] {
+        for other in ["0", "1", "7", "255", "4294967295", "4294967296", "18446744073709551615"] {
             let text = format!("{}{other}{}", &saved[..start], &saved[end..]);
             if let Ok(session) = TemplateSession::from_ron(&text) {
                 check(&session);

@@ -16,6 +16,7 @@
 mod cells;
 mod grown;
 mod laid;
+mod orders;
 mod patch;
 mod saved;
 mod view;
@@ -32,6 +33,7 @@ use grown::{Grown, Step, Stuck};
 use hexdel_geom::{DVec2, TriMesh, closest_pair};
 use hexdel_grid::{Grid, Lattice};
 use laid::{Since, fitting};
+use orders::Orders;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -66,10 +68,7 @@ const STEPS: u32 = 3;
 #[derive(Clone, Debug)]
 pub struct TemplateSession {
     grown: Grown,
-    /// Each point's place in the order in which the refiner got them; none for
-    /// removed ones.
-    points: Vec<Option<u32>>,
-    present: usize,
+    points: Orders,
     since: Since,
     /// Whether the domain grows for points outside of it.
     grows: bool,
@@ -112,8 +111,7 @@ impl TemplateSession {
         let grown = Grown::new(lattice, STEPS, (&[], &[]), (Serials::default(), None))?;
         Ok(Self {
             grown,
-            points: Vec::new(),
-            present: 0,
+            points: Orders::default(),
             since: Since::default(),
             grows: false,
             options: Mesher::new().method(Method::Templates),
@@ -146,11 +144,11 @@ impl TemplateSession {
         let options = mesher.for_session().method(Method::Templates);
         let workers = Workers::new(options.asked_threads())?;
         let grown = workers.run(|| Grown::new(lattice, steps, (&ids, points), kept))?;
-        let orders = (0..points.len() as u32).map(Some).collect();
+        let mut orders = Orders::default();
+        ids.iter().zip(0..).for_each(|(&id, order)| orders.set(id, Some(order)));
         Ok(Self {
             grown,
             points: orders,
-            present: points.len(),
             since: Since::default(),
             grows: false,
             options,
@@ -194,7 +192,7 @@ impl TemplateSession {
     }
 
     fn insert_all_here(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
-        let before = self.points.len();
+        let before = self.points.named();
         let wider = if self.grows { reaching(self.domain(), points) } else { None };
         let (centre, radius) = self.domain();
         for &point in points {
@@ -203,9 +201,9 @@ impl TemplateSession {
                 self.check_point(point)?;
             }
         }
-        check_distinct(points, before as u64)?;
-        let ids: Vec<PointId> = (before as u64..).map(PointId).take(points.len()).collect();
-        let present = self.present + points.len();
+        check_distinct(points, before)?;
+        let ids: Vec<PointId> = (before..).map(PointId).take(points.len()).collect();
+        let present = self.points.len() + points.len();
         let mut since = self.since.and_come(points.len(), present);
         if let Some(radius) = wider {
             let all = self.points_with(&ids, points);
@@ -232,8 +230,7 @@ impl TemplateSession {
         let first = self.grown.refiner.site_ids().len() as u32;
         match self.grown.exchange((&[], false), (&ids, points)) {
             Ok(step) => {
-                self.points.extend((first..).map(Some).take(points.len()));
-                self.present += points.len();
+                ids.iter().zip(first..).for_each(|(&id, order)| self.points.set(id, Some(order)));
                 let undo = ids.iter().map(|&id| (id, None)).collect();
                 Ok(self.done(step, undo, ids, since))
             }
@@ -309,26 +306,25 @@ impl TemplateSession {
         }
         let undo: Vec<_> = sorted.iter().map(|&id| (id, self.order(id))).collect();
         let gone: Vec<usize> = undo.iter().filter_map(|u| u.1).map(|order| order as usize).collect();
-        let mut since = self.since.and_gone(gone.len(), self.present);
-        let all = since.is_lift_due(self.present);
+        let mut since = self.since.and_gone(gone.len(), self.points.len());
+        let all = since.is_lift_due(self.points.len());
         let mut lattice = (self.grown.lattice(), self.grown.steps());
         if all {
             since = since.and_lifted();
             // Edges along the rim may be longer now, too.
             lattice = self.best_lattice(&self.points_without(&sorted).1);
-        } else if since.is_look_due(self.present - gone.len()) {
+        } else if since.is_look_due(self.points.len() - gone.len()) {
             since.seen = 0;
             if let Some(better) = self.better_lattice(&self.points_without(&sorted).1) {
-                (lattice, since) = (better, since.and_laid(self.present));
+                (lattice, since) = (better, since.and_laid(self.points.len()));
             }
         }
         if lattice == (self.grown.lattice(), self.grown.steps())
             && let Ok(step) = self.grown.exchange((&gone, all), (&[], &[]))
         {
             for id in sorted {
-                self.points[id.0 as usize] = None;
+                self.points.set(id, None);
             }
-            self.present -= gone.len();
             return Ok(self.done(step, undo, Vec::new(), since));
         }
         self.mesh_anew(lattice, self.grown.size.clone(), self.points_without(&sorted), (Vec::new(), since))
@@ -340,7 +336,7 @@ impl TemplateSession {
     }
 
     fn order(&self, id: PointId) -> Option<u32> {
-        self.points.get(usize::try_from(id.0).ok()?).copied().flatten()
+        self.points.get(id)
     }
 
     /// How long edges may be.
@@ -490,9 +486,8 @@ impl TemplateSession {
             }
         };
         for (id, order) in undo.points {
-            self.points[id.0 as usize] = order;
+            self.points.set(id, order);
         }
-        self.present = self.points.iter().flatten().count();
         self.since = undo.since;
         Ok(Outcome { points: Vec::new(), delta, remeshed, domain: self.domain_after(before) })
     }
@@ -509,14 +504,12 @@ impl TemplateSession {
         let grown = Grown::new(lattice, steps, (&ids, &points), (self.grown.cells.serials, size))?;
         let old = std::mem::replace(&mut self.grown, grown);
         let delta = self.grown.cells.delta_from(&old.cells);
-        self.points.resize(self.points.len() + new.len(), None);
-        let mut orders = vec![None; self.points.len()];
-        for (order, id) in (0..).zip(&ids) {
-            orders[id.0 as usize] = Some(order);
-        }
+        let mut orders = Orders::new(self.points.named());
+        ids.iter().zip(0..).for_each(|(&id, order)| orders.set(id, Some(order)));
         let before = std::mem::replace(&mut self.points, orders);
-        let points = (0..).map(PointId).zip(before).collect();
-        self.present = ids.len();
+        // What was there comes back, what is new goes.
+        let old_points = before.iter().map(|(id, order)| (id, Some(order)));
+        let points = new.iter().map(|&id| (id, None)).chain(old_points).collect();
         let since = std::mem::replace(&mut self.since, since);
         self.remember(Undo { mesh: Before::Whole(Box::new(old)), points, since });
         Ok(Outcome { points: new, delta, remeshed: true, domain: self.domain_after(domain) })

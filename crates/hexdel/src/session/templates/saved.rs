@@ -3,6 +3,7 @@
 use super::cells::Serials;
 use super::grown::{Grown, certified};
 use super::laid::Since;
+use super::orders::Orders;
 use super::{PointId, TemplateSession, check_size};
 use crate::mesher::Method;
 use crate::placement::{FINEST, MAX_COORDINATE, finest_spacing};
@@ -111,7 +112,7 @@ impl TemplateSession {
             centre: lattice.origin(),
             spacing: lattice.spacing(0),
             steps: self.grown.steps(),
-            named: self.points.len() as u64,
+            named: self.points.named(),
             points: self.points().map(point).collect(),
             tiles,
             moved,
@@ -170,7 +171,6 @@ impl TemplateSession {
         Ok(Self {
             grown,
             points: orders,
-            present: points.len(),
             since: document.since(),
             grows: document.grows,
             options,
@@ -182,7 +182,7 @@ impl TemplateSession {
 
 impl Document {
     /// Checks what stands alone. Returns the place of each point in the list.
-    fn check(&self) -> Result<Vec<Option<u32>>, SessionError> {
+    fn check(&self) -> Result<Orders, SessionError> {
         if self.templates != VERSION {
             return Err(unreadable(&format!("version {}, not {VERSION}", self.templates)));
         }
@@ -195,7 +195,7 @@ impl Document {
         if self.named > u64::from(u32::MAX) || self.named < self.points.len() as u64 {
             return Err(unreadable("more points than there may be"));
         }
-        let mut orders = vec![None; self.named as usize];
+        let mut orders = Orders::new(self.named);
         for (order, &(id, at, _)) in (0..).zip(&self.points) {
             if !at.is_finite() {
                 return Err(SessionError::NotFinite { at });
@@ -203,10 +203,11 @@ impl Document {
             if !is_inside(at - centre, radius) {
                 return Err(SessionError::Outside { at, radius });
             }
-            match orders.get_mut(id as usize) {
-                Some(place @ None) => *place = Some(order),
-                _ => return Err(SessionError::Points { id: PointId(id) }),
+            let id = PointId(id);
+            if id.0 >= self.named || orders.get(id).is_some() {
+                return Err(SessionError::Points { id });
             }
+            orders.set(id, Some(order));
         }
         super::check_distinct(&self.points.iter().map(|p| p.1).collect::<Vec<_>>(), 0)?;
         Ok(orders)

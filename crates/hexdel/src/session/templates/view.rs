@@ -8,10 +8,7 @@ use hexdel_grid::Address;
 impl TemplateSession {
     /// The points that are there.
     pub fn points(&self) -> impl Iterator<Item = (PointId, DVec2)> + '_ {
-        let present = |(i, order): (u64, &Option<u32>)| {
-            order.map(|order| (PointId(i), self.grown.refiner.occupant(order as usize).point))
-        };
-        (0..).zip(&self.points).filter_map(present)
+        self.points.iter().map(|(id, order)| (id, self.grown.refiner.occupant(order as usize).point))
     }
 
     /// The same as two lists.
@@ -22,7 +19,7 @@ impl TemplateSession {
     /// Numbers of points, vertices and triangles.
     pub fn counts(&self) -> [usize; 3] {
         let [vertices, triangles] = self.grown.cells.counts;
-        [self.present, vertices, triangles]
+        [self.points.len(), vertices, triangles]
     }
 
     /// Centre and circumradius of the domain.
@@ -58,10 +55,10 @@ impl TemplateSession {
 
     /// The vertices of points.
     fn names_of_points(&self) -> impl Iterator<Item = (PointId, u32)> + '_ {
-        (0..).zip(&self.points).filter_map(|(i, order)| {
-            let occupant = self.grown.refiner.occupant((*order)? as usize);
+        self.points.iter().filter_map(|(id, order)| {
+            let occupant = self.grown.refiner.occupant(order as usize);
             let at = Address::new(occupant.level, occupant.at.hex);
-            Some((PointId(i), self.grown.dual.name_of(self.grown.refiner.grid(), at)?))
+            Some((id, self.grown.dual.name_of(self.grown.refiner.grid(), at)?))
         })
     }
 
