@@ -2,7 +2,7 @@
 
 use crate::exit::Failure;
 use clap::Command;
-use hexdel::pslg::{PslgError, ValidateError};
+use hexdel::pslg::{Feature, PslgError, ValidateError};
 use hexdel_io::{MeshFormat, PointFormat, ReadError, WriteError};
 use std::path::Path;
 
@@ -104,6 +104,10 @@ impl Remedies<'_> {
             E::Overlap { .. } => {
                 let later = self.option("overlaps", "--overlaps later")?;
                 Some(format!("{later} takes the attribute of the later polygon"))
+            }
+            E::Pslg(PslgError::TooClose { items: [Feature::Hull, Feature::Hull], .. }) => {
+                let domain = self.option("domain", "--domain hexagon or box")?;
+                Some(format!("{domain} meshes what is around points nearly in line, too"))
             }
             E::Pslg(error) => {
                 // Rounded to one digit it is still enough.

@@ -108,8 +108,8 @@ pub enum ValidateError {
 pub enum PslgError {
     /// Two parts of the input are closer than their coordinates can resolve:
     /// vertices between them would be rounded by more than angles bear.
-    #[error("{} and {} are too close at ({}, {}): {}hexagons of {spacing:e} do not tell them apart",
-        items[0], items[1], at.x, at.y, apart(*distance))]
+    #[error("{} are too close at ({}, {}): {}hexagons of {spacing:e} do not tell them apart",
+        both(*items), at.x, at.y, apart(*distance))]
     TooClose {
         /// The two parts.
         items: [Feature; 2],
@@ -202,6 +202,8 @@ impl PslgError {
     /// being meshed, if that is why.
     pub fn repair_within(&self) -> Option<f64> {
         match self {
+            // Edges of the hull end at points, which may be far apart.
+            Self::TooClose { items: [Feature::Hull, Feature::Hull], .. } => None,
             // What coordinates do not resolve is as good as one.
             Self::TooClose { distance, spacing, .. } => Some(distance.unwrap_or(0.0).max(*spacing)),
             Self::TooMany { near, .. } => near.map(|near| near.distance),
@@ -225,7 +227,7 @@ pub(crate) fn between(items: [Feature; 2], pslg: &Pslg) -> Option<f64> {
     let ends = |item| match item {
         Feature::Point(i) => Some([pslg.points[i]; 2]),
         Feature::Segment(i) => Some(pslg.segments[i].map(|p| pslg.points[p as usize])),
-        Feature::Hull | Feature::Crossing => None,
+        Feature::Hull | Feature::Box | Feature::Crossing => None,
     };
     let [first, second] = [ends(items[0])?, ends(items[1])?];
     let [a, b] = nearest_places(first, second);
@@ -244,9 +246,16 @@ fn apart(distance: Option<f64>) -> String {
 }
 
 fn narrows(near: Option<&Near>) -> String {
-    near.map_or_else(String::new, |Near { items: [a, b], distance }| {
-        format!(", where {a} and {b} are {distance:e} apart")
+    near.map_or_else(String::new, |Near { items, distance }| {
+        format!(", where {} are {distance:e} apart", both(*items))
     })
+}
+
+fn both(items: [Feature; 2]) -> String {
+    match items {
+        [Feature::Hull, Feature::Hull] => "two edges of the convex hull".to_owned(),
+        [a, b] => format!("{a} and {b}"),
+    }
 }
 
 /// A point where only one segment ends.
@@ -304,6 +313,8 @@ pub enum Feature {
     Segment(usize),
     /// An edge of the convex hull that is no segment.
     Hull,
+    /// A side or corner of the box around the graph.
+    Box,
     /// A point that repair made where segments cross.
     Crossing,
 }
@@ -314,6 +325,7 @@ impl std::fmt::Display for Feature {
             Self::Point(i) => write!(f, "point {i}"),
             Self::Segment(i) => write!(f, "segment {i}"),
             Self::Hull => write!(f, "the convex hull"),
+            Self::Box => write!(f, "the box around the graph"),
             Self::Crossing => write!(f, "a crossing of segments"),
         }
     }

@@ -7,6 +7,8 @@
 
 use crate::error::ValidateError;
 use crate::geometry::distance_sq;
+use crate::hull::convex_hull;
+use crate::options::Extent;
 use crate::pairs::{Contacts, Touch, contacts};
 use crate::validate::crossing;
 use hexdel_geom::{DVec2, PointSet, Polygon, Pslg};
@@ -111,14 +113,21 @@ pub struct RepairReport {
 /// # Ok::<(), hexdel_pslg::ValidateError>(())
 /// ```
 pub fn repair(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), ValidateError> {
-    run(pslg, tolerance, 0.0)
+    run(pslg, Touch { distance: tolerance, angle: 0.0 }, Extent::Inside)
 }
 
 /// As [`repair`], and points that nearly lie on a segment divide it, too: those seen
 /// from both of its ends at less than [`NEARLY_ON_DEG`], however far that is.
 ///
 /// No mesh keeps bounds between a segment and such a point: strips of so little width take thousands
-/// of triangles.
+/// of triangles. If the convex hull is to be meshed, neither does one between a segment and an edge of the
+/// hull from the same point: there it is enough that the hull's next point is seen from that one as near.
+///
+/// ```text
+///              o the hull's next point
+///   a ---------+-o b
+///              |
+/// ```
 ///
 /// # Errors
 ///
@@ -135,26 +144,31 @@ pub fn repair(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), Valid
 ///
 /// let mut hanging = Pslg::from_points(vec![DVec2::ZERO, DVec2::new(1e3, 0.0), DVec2::new(500.0, 0.1)]);
 /// hanging.segments = vec![[0, 1]];
-/// let (mended, _) = hexdel_pslg::repair_nearly_on(&hanging, 1e-6)?;
+/// let (mended, _) = hexdel_pslg::repair_nearly_on(&hanging, 1e-6, hexdel_pslg::Extent::Inside)?;
 /// assert_eq!(mended.segments, [[0, 2], [2, 1]]);
 /// # Ok::<(), hexdel_pslg::ValidateError>(())
 /// ```
-pub fn repair_nearly_on(pslg: &Pslg, tolerance: f64) -> Result<(Pslg, RepairReport), ValidateError> {
-    run(pslg, tolerance, NEARLY_ON_DEG.to_radians())
+pub fn repair_nearly_on(
+    pslg: &Pslg,
+    tolerance: f64,
+    extent: Extent,
+) -> Result<(Pslg, RepairReport), ValidateError> {
+    run(pslg, Touch { distance: tolerance, angle: NEARLY_ON_DEG.to_radians() }, extent)
 }
 
 /// The angle at which a point nearly lies on a segment, degrees: a sixth of 0.09, below which nothing
 /// is kept between two segments.
 pub const NEARLY_ON_DEG: f64 = 0.015;
 
-fn run(pslg: &Pslg, tolerance: f64, angle: f64) -> Result<(Pslg, RepairReport), ValidateError> {
+fn run(pslg: &Pslg, touch: Touch, extent: Extent) -> Result<(Pslg, RepairReport), ValidateError> {
     pslg.check_layout()?;
     PointSet::new(&pslg.points)?;
-    let tolerance = if tolerance.is_finite() { tolerance.max(0.0) } else { 0.0 };
+    let distance = if touch.distance.is_finite() { touch.distance.max(0.0) } else { 0.0 };
     let n = pslg.points.len();
     let mut mender = Mender {
         pslg,
-        touch: Touch { distance: tolerance, angle },
+        touch: Touch { distance, ..touch },
+        extent,
         points: pslg.points.clone(),
         into: (0..n as u32).collect(),
         markers: pslg.point_markers.clone(),
@@ -209,6 +223,7 @@ fn odd(mut list: Vec<u32>) -> Vec<u32> {
 struct Mender<'a> {
     pslg: &'a Pslg,
     touch: Touch,
+    extent: Extent,
     /// All points ever, those given first.
     points: Vec<DVec2>,
     /// The point that each has gone into: itself or an earlier one that has
@@ -298,12 +313,46 @@ impl Mender<'_> {
         let mut found = contacts(&self.points, &ends, self.touch);
         // Merged points are none.
         found.touching.retain(|&(_, p)| self.into[p as usize] == p);
+        if self.extent == Extent::Hull {
+            found.touching.extend(self.beside_hull());
+            found.touching.sort_unstable();
+            found.touching.dedup();
+        }
         let cuts = self.cuts(&found);
         let any = !cuts.is_empty();
         for group in cuts.chunk_by(|a, b| a.0 == b.0) {
             self.cut(group);
         }
         any
+    }
+
+    /// Segments and next points on the hull that are seen from their ends at less than the angle.
+    fn beside_hull(&self) -> Vec<(u32, u32)> {
+        let kept: Vec<u32> = (0..self.points.len() as u32).filter(|&i| self.into[i as usize] == i).collect();
+        let at = |p: u32| self.points[p as usize];
+        let sites: Vec<DVec2> = kept.iter().map(|&p| at(p)).collect();
+        let hull: Vec<u32> = convex_hull(&sites).into_iter().map(|i| kept[i as usize]).collect();
+        let mut next: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for (&p, &q) in hull.iter().zip(hull.iter().cycle().skip(1)) {
+            next.entry(p).or_default().push(q);
+            next.entry(q).or_default().push(p);
+        }
+        let is_beside = |[a, b]: [u32; 2], p: u32| {
+            let [a, b, p] = [a, b, p].map(at);
+            let along = (p - a).dot(b - a) / a.distance_squared(b);
+            along > 0.0
+                && along < 1.0
+                && (b - a).perp_dot(p - a).abs() <= self.touch.angle * a.distance(b) * a.distance(p)
+        };
+        let mut found = Vec::new();
+        for (part, segment) in self.segments.iter().zip(0..) {
+            let [a, b] = part.ends;
+            for [from, to] in [[a, b], [b, a]] {
+                let beside = next.get(&from).into_iter().flatten().filter(|&&p| p != to);
+                found.extend(beside.filter(|&&p| is_beside([from, to], p)).map(|&p| (segment, p)));
+            }
+        }
+        found
     }
 
     /// The segments and the points to divide them at.

@@ -5,6 +5,7 @@
 
 mod common;
 
+use hexdel::geom::Region;
 use hexdel::pslg::{Feature, PslgError, Repair, Seed, Unused, ValidateError};
 use hexdel::{
     DVec2, Domain, Error, Mesher, Overlaps, Pslg, PslgTriangulation, TriangleId, Warning, triangulate_pslg,
@@ -85,7 +86,8 @@ fn what_else_there_is_in_a_file_changes_nothing() {
     assert!(names.len() > 20);
     for name in names.iter().filter(|name| *name != "bowtie.geojson") {
         let made = made(&format!("geojson/{name}"));
-        let twice = ["two_adjacent.geojson", "adj_tjunction.geojson"].contains(&name.as_str());
+        let twice = ["two_adjacent.geojson", "adj_tjunction.geojson", "ndjson.geojson", "rs.geojson"]
+            .contains(&name.as_str());
         let area: f64 = areas(&made).iter().map(|a| a.1).sum();
         assert!((area - if twice { 24.0 } else { 12.0 }).abs() < 1e-12, "{name}: {area}");
         let overlap = made.warnings.iter().any(|w| matches!(w, Warning::Overlap { .. }));
@@ -105,6 +107,25 @@ fn overlaps_are_warned_of_or_refused() {
     assert!(matches!(refused, Err(Error::Overlap { polygons: [0, 1], .. })));
     let apart = Mesher::new().overlaps(Overlaps::Refuse).triangulate_pslg(&read("nested3.geojson"));
     assert!(apart.unwrap().warnings.is_empty());
+}
+
+/// A region counts where it is, as in Triangle's files, though a polygon covers it: not without a word.
+#[test]
+fn regions_in_polygons_are_warned_of() {
+    let mut graph = read("nested3.geojson");
+    let region = |x: f64, attribute| Region { point: DVec2::new(x, x), attribute, max_area: None };
+    graph.regions = vec![region(0.5, 7.0), region(0.25, 7.0)];
+    let made = triangulate_pslg(&graph).unwrap();
+    let at = DVec2::splat(0.5);
+    assert_eq!(made.warnings, [Warning::RegionInPolygon { region: 0, at, attributes: [7.0, 1.0] }]);
+    assert_eq!(
+        made.warnings[0].to_string(),
+        "region 0 at (0.5, 0.5) lies in a polygon: its attribute 7 is taken there, not 1"
+    );
+    let areas = areas(&made);
+    assert!(areas.len() == 2 && areas[1].0 == 7.0 && (areas[1].1 - 42.0).abs() < 1e-9, "{areas:?}");
+    graph.regions = vec![region(0.5, 1.0)];
+    assert!(triangulate_pslg(&graph).unwrap().warnings.is_empty());
 }
 
 /// Borders of different polygons may cross; one polygon's may not.
@@ -273,6 +294,25 @@ fn points_nearly_on_a_segment_are_put_on_it() {
     let made = Mesher::new().domain(Domain::Hull).repair().triangulate_pslg(&hanging).unwrap();
     assert!(made.holds() && bent(&made) > 0, "{:?}", made.failed);
     assert!(made.mesh.triangles.len() < 1_000, "{}", made.mesh.triangles.len());
+}
+
+/// Segments that end just beyond a long one, at the hull: its edge from the long one's end would leave a
+/// hundredth of a degree.
+#[test]
+fn ends_just_beyond_a_segment_are_put_on_it_at_the_hull() {
+    let hull = Mesher::new().domain(Domain::Hull).repair();
+    let mut crossing = Pslg::from_points(
+        [(0.0, 0.0), (1000.0, 0.0), (999.0, -0.1), (996.0, 40.0)].map(|(x, y)| DVec2::new(x, y)).to_vec(),
+    );
+    crossing.segments = vec![[0, 1], [2, 3]];
+    for graph in [read("near_collinear6.poly"), crossing.clone()] {
+        let made = hull.triangulate_pslg(&graph).unwrap();
+        assert!(made.holds() && bent(&made) == 1, "{:?}", made.failed);
+        assert!(made.mesh.triangles.len() < 500, "{}", made.mesh.triangles.len());
+    }
+    // Elsewhere there is room enough around the crossing.
+    let made = Mesher::new().domain(Domain::Hexagon).repair().triangulate_pslg(&crossing).unwrap();
+    assert!(made.holds() && bent(&made) == 0, "{:?}", made.failed);
 }
 
 /// Points that are repaired keep the bounds of points.

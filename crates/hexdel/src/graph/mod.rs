@@ -21,6 +21,7 @@ use crate::sized;
 use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Unwatched, smallest_enclosing_circle};
 use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, SegmentMethod, Validated, mesh, mesh_sized};
 use prepare::Prepared;
+pub(crate) use repair::Names;
 use result::PslgTriangulation;
 use std::time::Instant;
 use verify::Meshed;

@@ -58,7 +58,8 @@ impl Mesher {
 
     pub(super) fn prepare(&self, pslg: &Pslg) -> Result<Prepared, Error> {
         let asked = self.graph.repair;
-        let mut repaired = Repaired::new(pslg, asked)?;
+        let extent = self.graph.domain.map_or(Extent::Inside, Domain::extent);
+        let mut repaired = Repaired::new(pslg, asked, extent)?;
         let domain = self.domain_of(&repaired.graph);
         let mut validated = valid(&repaired, domain);
         let mut division = None;
@@ -100,7 +101,18 @@ impl Mesher {
             Seed::Hole(i) => (i as usize) < given.holes.len(),
             Seed::Region(i) => (i as usize) < given.regions.len(),
         };
-        let unused = validated.unused_seeds(domain.extent()).into_iter().filter(|unused| own(unused.seed));
+        let unused = validated.unused_seeds(domain.extent());
+        let regions = &validated.pslg().regions;
+        let overridden = unused.iter().filter_map(|unused| match (unused.seed, unused.why) {
+            (Seed::Region(of_polygon), Unused::SameFace { region })
+                if !own(unused.seed) && own(Seed::Region(region)) =>
+            {
+                Some(warning::of_region(region, &regions[region as usize], &regions[of_polygon as usize]))
+            }
+            _ => None,
+        });
+        warnings.extend(overridden);
+        let unused = unused.into_iter().filter(|unused| own(unused.seed));
         warnings.extend(unused.map(|unused| Warning::UnusedSeed(as_given(unused, repaired))));
         Ok((validated, warnings))
     }

@@ -212,6 +212,9 @@ impl RepairEntry {
     /// One thing that repair did, in words.
     pub fn new(repair: &Repair) -> Self {
         let (what, at) = match *repair {
+            Repair::MergedPoint { point, into, at, distance: 0.0 } => {
+                (format!("point {point} was point {into} again"), at)
+            }
             Repair::MergedPoint { point, into, at, distance } => {
                 (format!("point {point} went into point {into}, {distance:e} away"), at)
             }

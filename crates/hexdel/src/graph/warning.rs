@@ -1,6 +1,6 @@
 //! What a graph says that a mesh makes no use of, or could be meant otherwise.
 
-use hexdel_geom::{DVec2, Pslg};
+use hexdel_geom::{DVec2, Pslg, Region};
 use hexdel_pslg::{Cover, Repair, RepairReport, StrayRing, UnusedSeed};
 
 /// Something about a graph that its author should know of. The mesh is what was asked
@@ -32,6 +32,16 @@ pub enum Warning {
     },
     /// A hole of a polygon lies in another one, or not in the polygon.
     StrayRing(StrayRing),
+    /// A region lies in a polygon of another attribute or largest area, and its own are taken in
+    /// the part of the polygon around it.
+    RegionInPolygon {
+        /// Index of the region.
+        region: u32,
+        /// Where it is.
+        at: DVec2,
+        /// Its attribute, and that of the polygon.
+        attributes: [f64; 2],
+    },
     /// A hole or region changes nothing.
     UnusedSeed(UnusedSeed),
 }
@@ -40,7 +50,9 @@ impl Warning {
     /// Where it is.
     pub fn at(&self) -> DVec2 {
         match self {
-            Self::Overlap { at, .. } | Self::DividedBorders { at, .. } => *at,
+            Self::Overlap { at, .. } | Self::DividedBorders { at, .. } | Self::RegionInPolygon { at, .. } => {
+                *at
+            }
             Self::StrayRing(ring) => ring.at,
             Self::UnusedSeed(seed) => seed.at,
         }
@@ -75,6 +87,13 @@ impl std::fmt::Display for Warning {
                     None => write!(f, "it lies outside of the polygon"),
                 }
             }
+            Self::RegionInPolygon { region, at, attributes: [own, polygons] } => {
+                write!(f, "region {region} at ({}, {}) lies in a polygon: ", at.x, at.y)?;
+                match own == polygons {
+                    true => write!(f, "its largest area is taken there, not that of the polygon"),
+                    false => write!(f, "its attribute {own} is taken there, not {polygons}"),
+                }
+            }
             Self::UnusedSeed(seed) => write!(f, "{seed}"),
         }
     }
@@ -90,6 +109,12 @@ pub(super) fn of_division(report: &RepairReport) -> Option<Warning> {
     let mut places = report.repairs.iter().filter_map(place);
     let at = places.next()?;
     Some(Warning::DividedBorders { at, places: 1 + places.count() })
+}
+
+/// A region given that comes before that of a polygon.
+pub(super) fn of_region(number: u32, given: &Region, of_polygon: &Region) -> Warning {
+    let attributes = [given.attribute, of_polygon.attribute];
+    Warning::RegionInPolygon { region: number, at: given.point, attributes }
 }
 
 /// The overlaps, which an option makes errors, and the stray rings.

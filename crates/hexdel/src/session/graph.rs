@@ -3,15 +3,17 @@
 use super::divide::{Divided, Divider};
 use super::{PointId, Session, SessionError, SessionMesh};
 use crate::error::Error;
-use crate::graph::Domain;
 use crate::graph::result::PslgTriangulation;
 use crate::graph::warning::Warning;
+use crate::graph::{Domain, Names};
 use crate::mesher::Mesher;
 use hexdel_geom::{Certificate, Circle, smallest_enclosing_circle};
 use hexdel_geom::{CertifyOptions, DVec2, Pslg, SegmentCheck, VertexId, certify, check_segments};
 use hexdel_optimize::live::{LiveMesh, Snapshot};
 use hexdel_optimize::{Constraints, Sizing, VertexKind, kinds_of};
-use hexdel_pslg::{Reason, RepairReport, SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers};
+use hexdel_pslg::{
+    Feature, Reason, RepairReport, SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
@@ -333,7 +335,10 @@ impl Session {
         let [near, far] = self.live.bounds();
         let mesher = self.options.clone().bounds(far).near_bounds(near).domain(domain);
         let mesher = self.size.iter().fold(mesher, |m, size| m.size(size.clone()));
-        let made = mesher.triangulate_pslg(&graph)?;
+        let point = |p: usize| Feature::Point(divided.ids[p].0 as usize);
+        let segment = |s: usize| Feature::Segment(divided.whole[s] as usize);
+        let names = Names { point: &point, segment: &segment };
+        let made = mesher.triangulate_pslg(&graph).map_err(|error| names.of_mesh(error))?;
         let anew = Self::of_graph(&made, frame.graph.clone(), &divided, &mesher)?;
         let there = |id: u64| anew.points.get(id as usize).copied().flatten().is_some();
         match new.iter().zip(first..).find(|p| !there(p.1)) {

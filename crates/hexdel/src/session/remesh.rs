@@ -2,12 +2,14 @@
 
 use super::{Before, Frame, Outcome, PointId, Session, SessionError, Undo};
 use crate::error::Error;
+use crate::graph::Names;
 use crate::placement::MAX_COORDINATE;
 use crate::size::Size;
 use crate::triangulation::Triangulation;
 use hexdel_geom::DVec2;
 use hexdel_optimize::live::LiveMesh;
 use hexdel_optimize::{Sizing, VertexKind, kinds_of};
+use hexdel_pslg::Feature;
 use std::sync::Arc;
 
 /// Up to so many points, when one of so many has changed, the mesh is compared with one made
@@ -60,7 +62,7 @@ impl Session {
             return Err(SessionError::NotFinite { at });
         }
         let anew = self.anew_with_segments(frame, points).map_err(|error| match error {
-            // Its bounds do not hold either, or it names parts of a graph made on the way.
+            // Its bounds do not hold either, or there is no such mesh.
             SessionError::NotCertified { .. } | SessionError::Mesh(Error::Pslg(_) | Error::Segments(_)) => {
                 SessionError::NoRoom { at }
             }
@@ -109,7 +111,10 @@ impl Session {
         let mesher = self.options.clone().bounds(self.bounds);
         let mesher = mesher.around(self.centre, radius);
         let mesher = size.iter().fold(mesher, |m, s| m.size((*s).clone()));
-        let made = mesher.triangulate(points)?;
+        // Points that are gone have numbers, too.
+        let named = |p: usize| Feature::Point(ids[p].0 as usize);
+        let names = Names { point: &named, segment: &Feature::Segment };
+        let made = mesher.triangulate(points).map_err(|error| names.of_mesh(error))?;
         let inputs = made.input_of_vertex();
         for (i, v) in made.vertex_of_input.iter().enumerate() {
             if let Some(first) = inputs[v.index()].filter(|&first| first as usize != i) {
