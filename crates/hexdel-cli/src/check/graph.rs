@@ -4,7 +4,7 @@ use super::{finding, points};
 use hexdel::geom::certificate::{PlaceCheck, Promise, Promises, Violation, check_promises, features};
 use hexdel::geom::segments::{covered, is_on};
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, MissingSegment, SegmentCheck, check_segments, quality};
-use hexdel::{AngleBounds, Certificate, DVec2, Mesher, Pslg, TriMesh, pslg};
+use hexdel::{AngleBounds, Certificate, DVec2, Domain, Mesher, Pslg, TriMesh, pslg};
 use hexdel_io::{Promised, PromisedDomain};
 use serde::Serialize;
 use std::cmp::Ordering;
@@ -34,7 +34,8 @@ impl OfGraph {
     ) -> Self {
         // Of polygons the holes and regions that meshes are made of.
         let prepared = Some(graph).filter(|g| !g.polygons.is_empty());
-        let prepared = prepared.and_then(|graph| Mesher::new().prepared_pslg(graph).ok()).map(|p| p.graph);
+        let mesher = promised.map_or(Mesher::new(), |p| Mesher::new().domain(domain_of(p.domain)));
+        let prepared = prepared.and_then(|graph| mesher.prepared_pslg(graph).ok()).map(|p| p.graph);
         // Places that are merged would have other numbers.
         let prepared = prepared.filter(|p| p.points.starts_with(&graph.points));
         let graph = prepared.as_ref().unwrap_or(graph);
@@ -190,6 +191,15 @@ fn extent_of(domain: PromisedDomain) -> pslg::Extent {
         PromisedDomain::Inside => pslg::Extent::Inside,
         // In a box, too, only holes are left out.
         PromisedDomain::Hexagon | PromisedDomain::Box => pslg::Extent::Hexagon,
+    }
+}
+
+fn domain_of(domain: PromisedDomain) -> Domain {
+    match domain {
+        PromisedDomain::Hexagon => Domain::Hexagon,
+        PromisedDomain::Hull => Domain::Hull,
+        PromisedDomain::Box => Domain::Box,
+        PromisedDomain::Inside => Domain::Inside,
     }
 }
 

@@ -3,7 +3,7 @@
 mod graph;
 
 use crate::exit::{Outcome, Verdict, print};
-use crate::input::{Formats, Streams, is_stream, read_graph, read_mesh_data};
+use crate::input::{Formats, read_graph, read_mesh_data};
 use graph::OfGraph;
 use hexdel::geom::certificate::Violation;
 use hexdel::geom::{ANGLE_TOLERANCE_DEG, BoundsError, CertifyOptions, certify, quality};
@@ -62,14 +62,7 @@ const LISTED: usize = 100;
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
-    let is_input = args.input.as_deref().is_some_and(is_stream);
-    args.formats.refuse_unused(&Streams {
-        input: is_stream(&args.mesh) || is_input,
-        output: false,
-        points: args.input.is_some(),
-    })?;
-    // Of two files only one can be standard input.
-    let of_input = if is_stream(&args.mesh) { args.formats.of_files() } else { args.formats.clone() };
+    let of_input = args.formats.beside(&args.mesh, args.input.as_deref())?;
     let input = args.input.as_deref().map(|path| read_graph(path, &of_input)).transpose()?;
     let input = input.map(|file| file.pslg);
     let MeshData { mesh, promised, .. } = read_mesh_data(&args.mesh, &args.formats)?;

@@ -68,16 +68,6 @@ impl Finished<'_> {
         if self.numbered.is_some() { "" } else { ", see --report" }
     }
 
-    /// The file that a warning is about, and the line if it is known.
-    fn place(&self, warning: &Warning) -> String {
-        let Warning::UnusedSeed(unused) = warning else { return self.file.to_owned() };
-        let line = match unused.seed {
-            Seed::Hole(i) => self.input.hole_lines.get(i as usize),
-            Seed::Region(i) => self.input.region_lines.get(i as usize),
-        };
-        line.map_or_else(|| self.file.to_owned(), |line| format!("{}:{line}", self.file))
-    }
-
     /// Writes the mesh to all files and says what it is like.
     pub(crate) fn write(&self, outputs: &Outputs) -> Outcome {
         let made = self.made;
@@ -112,7 +102,12 @@ impl Finished<'_> {
         if !self.quiet {
             outputs.tell(&self.summary(&report))?;
         }
-        warn_of_warnings(&made.warnings, self.file, |warning| self.place(warning), self.elsewhere());
+        warn_of_warnings(
+            &made.warnings,
+            self.file,
+            |warning| place(warning, self.file, self.input),
+            self.elsewhere(),
+        );
         if !made.holds() {
             warn(&format!("{}: the mesh does not keep what was asked for", self.file));
         }
@@ -180,6 +175,20 @@ impl Finished<'_> {
             let _ = writeln!(text, "           and {} more{}", items.len() - SHOWN, self.elsewhere());
         }
     }
+}
+
+/// The file that a warning is about, and the line if it is known.
+pub(crate) fn place(warning: &Warning, file: &str, input: &PointFile) -> String {
+    let seed = match warning {
+        Warning::UnusedSeed(unused) => unused.seed,
+        Warning::RegionInPolygon { region, .. } => Seed::Region(*region),
+        _ => return file.to_owned(),
+    };
+    let line = match seed {
+        Seed::Hole(i) => input.hole_lines.get(i as usize),
+        Seed::Region(i) => input.region_lines.get(i as usize),
+    };
+    line.map_or_else(|| file.to_owned(), |line| format!("{file}:{line}"))
 }
 
 /// What the mesh was made to keep; the paper's way promises nothing near segments.

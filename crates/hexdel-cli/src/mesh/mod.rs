@@ -16,7 +16,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-pub(crate) use graph::{Finished, failure, warn_of_repairs, warn_of_warnings};
+pub(crate) use graph::{Finished, failure, place, warn_of_repairs, warn_of_warnings};
 
 /// Mesh points, or segments: angles of 43.89 to 90 degrees, at segments 30 to 90
 #[derive(clap::Args)]

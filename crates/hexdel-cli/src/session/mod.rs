@@ -3,7 +3,7 @@
 mod command;
 
 use crate::exit::{Failure, Outcome as Ending, Verdict, print};
-use crate::mesh::{EffortName, seconds};
+use crate::mesh::{EffortName, place, seconds};
 use crate::outputs::{Content, Outputs};
 use crate::sizing::size_of_file;
 use command::{Command, SizeCommand, parse};
@@ -162,9 +162,13 @@ impl Talk {
         match command {
             Command::Open(path) => {
                 let file = PointReader::new().columns(self.columns.clone()).read(&path)?;
+                let name = path.display().to_string();
                 self.inputs.push(path);
                 let session = AnySession::new(&file.pslg, &self.mesher)?;
-                let more = if file.pslg.segments.is_empty() { unused(&file.pslg) } else { told(&session) };
+                let more = match file.pslg.segments.is_empty() {
+                    true => unused(&file.pslg),
+                    false => told(&session, &name, &file),
+                };
                 let repairs = session.repairs().map_or(&[][..], |report| &report.repairs);
                 let repairs: Vec<String> = repairs.iter().map(|r| RepairEntry::new(r).to_string()).collect();
                 let mut answer = with_file(self.begin(session)?, &file, more);
@@ -267,9 +271,9 @@ fn with_file(mut answer: Value, file: &PointFile, more: Vec<String>) -> Value {
     answer
 }
 
-/// What was to be said of a graph.
-fn told(session: &AnySession) -> Vec<String> {
-    session.warnings().iter().map(ToString::to_string).collect()
+/// What was to be said of a graph, with the file and the line if it is known.
+fn told(session: &AnySession, name: &str, file: &PointFile) -> Vec<String> {
+    session.warnings().iter().map(|warning| format!("{}: {warning}", place(warning, name, file))).collect()
 }
 
 /// What is not used of a file of which points alone are.

@@ -210,3 +210,20 @@ fn a_closed_pipe_is_no_failure() {
         assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
     }
 }
+
+/// What a polygon's file says is outside is part of the hull, narrow corners there too.
+#[test]
+fn the_input_is_taken_as_for_the_domain_of_the_mesh() {
+    let bench = Bench::new();
+    bench.file(
+        "l.geojson",
+        r#"{"type":"GeometryCollection","geometries":[
+        {"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]},
+        {"type":"LineString","coordinates":[[10,0],[14,0.5],[14,-0.5],[10,0]]}]}"#,
+    );
+    for domain in ["hull", "hexagon", "box", "inside"] {
+        bench.run(&format!("mesh l.geojson -q -o m.vtu --domain {domain}")).fine();
+        let run = bench.run("check m.vtu --input l.geojson");
+        assert_eq!(run.code, 0, "{domain}: {}", run.out);
+    }
+}

@@ -98,7 +98,10 @@ fn what_is_not_used_of_a_file_is_said() {
     let told = |i: usize, of: &str| {
         answers[i][of].as_array().unwrap().iter().map(|t| t.as_str().unwrap()).collect::<Vec<_>>()
     };
-    assert_eq!(told(0, "warnings"), ["hole 0 at (7, 7) is not used: it lies outside of the domain"]);
+    assert_eq!(
+        told(0, "warnings"),
+        ["s.poly:11: hole 0 at (7, 7) is not used: it lies outside of the domain"]
+    );
     assert_eq!(told(0, "repairs"), ["segments 0 and 3 had a part in common at (1, 0)"]);
     assert_eq!(told(1, "warnings"), ["points alone are used, not 1 holes"]);
     assert_eq!(told(3, "warnings"), ["points alone are used, not 4 segments, 1 holes"]);
