@@ -165,10 +165,8 @@ impl Talk {
                 let name = path.display().to_string();
                 self.inputs.push(path);
                 let session = AnySession::new(&file.pslg, &self.mesher)?;
-                let more = match file.pslg.segments.is_empty() {
-                    true => unused(&file.pslg),
-                    false => told(&session, &name, &file),
-                };
+                let points_alone = file.pslg.segments.is_empty();
+                let more = if points_alone { unused(&file.pslg) } else { told(&session, &name, &file) };
                 let repairs = session.repairs().map_or(&[][..], |report| &report.repairs);
                 let repairs: Vec<String> = repairs.iter().map(|r| RepairEntry::new(r).to_string()).collect();
                 let mut answer = with_file(self.begin(session)?, &file, more);

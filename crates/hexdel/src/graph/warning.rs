@@ -89,9 +89,10 @@ impl std::fmt::Display for Warning {
             }
             Self::RegionInPolygon { region, at, attributes: [own, polygons] } => {
                 write!(f, "region {region} at ({}, {}) lies in a polygon: ", at.x, at.y)?;
-                match own == polygons {
-                    true => write!(f, "its largest area is taken there, not that of the polygon"),
-                    false => write!(f, "its attribute {own} is taken there, not {polygons}"),
+                if own == polygons {
+                    write!(f, "its largest area is taken there, not that of the polygon")
+                } else {
+                    write!(f, "its attribute {own} is taken there, not {polygons}")
                 }
             }
             Self::UnusedSeed(seed) => write!(f, "{seed}"),
