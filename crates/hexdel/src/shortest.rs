@@ -3,13 +3,11 @@
 //! The paper bounds edges by `l_min = d_min sqrt(7) / (12 sqrt(3))`, `d_min` the distance of
 //! the closest two points. What else makes a mesh fine stands in for `d_min` where it is
 //! less: a size that is wanted, and in a session, whose domain is there before its points,
-//! the distance of a point to a corner or side of it; where its lattice is there as well, the
-//! distances that its levels are made for.
+//! the distance of a point to a corner or side of it.
 
-use crate::placement::{CONFLICT_REACH, Placement, corners, finest_spacing};
+use crate::placement::{Placement, corners, finest_spacing};
 use crate::size::Size;
 use hexdel_geom::{DVec2, LENGTH_TOLERANCE, PointSet, TriMesh, closest_pair};
-use hexdel_grid::Lattice;
 use hexdel_optimize::Sizing;
 
 /// The paper's bound on the shortest edge over the distance of the closest
@@ -44,17 +42,6 @@ pub(crate) fn of_session(
     let to_sides = points.iter().filter_map(|&p| distance_to_sides(p, &corners)).min_by(f64::total_cmp);
     let wanted = size.map(|size| least_wanted(mesh, size));
     shortest_edge([closest.map(|pair| pair.distance), to_sides, wanted])
-}
-
-/// The same where the mesh is that of a lattice which was laid before the points came: the
-/// distance of two points is what one of the lattice's levels is made for, or the next larger
-/// such distance's, and the coarsest level is there in any case.
-pub(crate) fn of_lattice(lattice: &Lattice, edge: f64) -> f64 {
-    let mut made_for = SHORTEST_EDGE * CONFLICT_REACH * lattice.spacing(0);
-    while made_for > edge {
-        made_for *= 0.5;
-    }
-    made_for
 }
 
 /// Whether an edge of a mesh is shorter than `least` by more than a certificate tolerates.
@@ -94,15 +81,6 @@ mod tests {
         assert!((SHORTEST_EDGE - 7_f64.sqrt() / (12.0 * 3_f64.sqrt())).abs() < 1e-15);
         assert_eq!(shortest_edge([None, None]), None);
         assert_eq!(shortest_edge([None, Some(2.0), Some(1.0)]), Some(SHORTEST_EDGE));
-    }
-
-    #[test]
-    fn a_lattice_has_edges_for_distances_twice_apart() {
-        let lattice = Lattice::new(DVec2::ZERO, 1.0);
-        let of = |distance: f64| of_lattice(&lattice, SHORTEST_EDGE * distance) / SHORTEST_EDGE;
-        for (distance, made_for) in [(100.0, 1.0), (4.2, 1.0), (4.1, 0.5), (2.05, 0.25)] {
-            assert!((of(distance) - made_for * CONFLICT_REACH).abs() < 1e-12, "{distance}");
-        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::Session;
 use crate::shortest::{self, has_shorter_edge};
 use hexdel_geom::{Certificate, CertifyOptions, TriMesh, certify};
+use hexdel_optimize::live::LiveMesh;
 
 impl Session {
     /// The certificate of the whole mesh, made from scratch.
@@ -11,8 +12,8 @@ impl Session {
     /// corners of the domain, of the distance of points to its sides, or of the least size,
     /// whichever is least. Points and sizes that have gone may leave shorter edges behind: then
     /// nothing is promised of them (`min_edge_bound` is none) until the mesh is made anew
-    /// ([`renew`](Self::renew)). Up to 1,024 points a call that would leave such edges makes it
-    /// anew itself, where that is possible in the domain.
+    /// ([`renew`](Self::renew)). Up to 1,024 points [`remove`](Self::remove) makes it anew itself
+    /// where it would leave such edges, if the domain has room for a mesh without.
     ///
     /// The mesh of a graph is held against the bounds near segments, with exempt triangles out
     /// of bounds: [`check`](Self::check) knows them.
@@ -21,30 +22,25 @@ impl Session {
     ///
     /// Linear in the mesh.
     pub fn certificate(&self) -> Certificate {
-        let mesh = self.live.snapshot().mesh;
-        let allowed = self.shortest_edge_allowed(&mesh);
-        self.certificate_with(allowed.filter(|&edge| !has_shorter_edge(&mesh, edge)))
-    }
-
-    /// The same against another shortest edge, or none; of a graph there is none.
-    pub(super) fn certificate_with(&self, min_edge: Option<f64>) -> Certificate {
         let (_, points) = self.present();
         if self.frame.is_some() {
             return self.certificate_of_graph(&points);
         }
+        let mesh = self.live.snapshot().mesh;
+        let min_edge = self.shortest_edge_allowed(&mesh).filter(|&edge| !has_shorter_edge(&mesh, edge));
         let options =
             CertifyOptions { bounds: self.bounds, inputs: Some(&points), min_edge, ..Default::default() };
-        certify(&self.live.snapshot().mesh, &options)
+        certify(&mesh, &options)
     }
 
-    /// Whether an edge is shorter than what is there allows, as after points have gone that
-    /// were close to others.
+    /// Whether a mesh of the points has an edge shorter than they allow, as the session's own after
+    /// points have gone that were close to others.
     ///
     /// # Complexity
     ///
     /// Linear in the mesh.
-    pub(super) fn has_short_edge(&self) -> bool {
-        let mesh = self.live.snapshot().mesh;
+    pub(super) fn is_short(&self, live: &LiveMesh) -> bool {
+        let mesh = live.snapshot().mesh;
         self.shortest_edge_allowed(&mesh).is_some_and(|edge| has_shorter_edge(&mesh, edge))
     }
 

@@ -226,9 +226,7 @@ impl Session {
     /// points, the whole is meshed anew. Without segments, the mesh of up to 1,024 points is
     /// compared with one made at once now and then, and meshed anew if that is smaller: of up to
     /// 32 points after every call, of up to 64 after every other, of up to 256 when an eighth
-    /// has changed, then half. It is
-    /// meshed anew as well where an edge is shorter than the [`certificate`](Self::certificate)
-    /// holds it against.
+    /// has changed, then half.
     pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
         let before = self.points.len();
         let present = self.of_slot.len();
@@ -258,10 +256,11 @@ impl Session {
             }
         }
         let changed = self.changed;
-        let outcome = self.improved(points.len(), |session| session.abandon(before)).unwrap_or_else(|| {
-            let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
-            self.done(before, undo, self.size.clone())
-        });
+        let outcome =
+            self.improved(points.len(), true, |session| session.abandon(before)).unwrap_or_else(|| {
+                let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
+                self.done(before, undo, self.size.clone())
+            });
         Ok(self.counting_from(changed, outcome))
     }
 
@@ -338,6 +337,7 @@ impl Session {
         if let Some(&(id, _)) = slots.iter().find(|(_, slot)| self.live.ends_segment(*slot)) {
             return Err(SessionError::SegmentEnd { id });
         }
+        let was_short = self.was_short();
         for &(_, slot) in &slots {
             let at = self.live.position(slot);
             if self.live.release(slot).is_err() {
@@ -357,7 +357,7 @@ impl Session {
                 session.of_slot.insert(slot, id);
             }
         };
-        let outcome = self.improved(ids.len(), abandon).unwrap_or_else(|| {
+        let outcome = self.improved(ids.len(), was_short, abandon).unwrap_or_else(|| {
             let undo = slots.iter().map(|&(id, slot)| (id, Some(slot))).collect();
             self.done(self.points.len(), undo, self.size.clone())
         });

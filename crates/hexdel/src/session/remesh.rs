@@ -130,17 +130,22 @@ impl Session {
     }
 
     /// After a call that has changed the points and not ended: the same by a mesh made at
-    /// once, if an edge is shorter than the points allow, or if so many points have changed
-    /// that this is in proportion and it has many triangles fewer. `abandon` takes the call
-    /// back.
-    pub(super) fn improved(&mut self, changed: usize, abandon: impl FnOnce(&mut Self)) -> Option<Outcome> {
+    /// once, if so many have changed that this is in proportion and it has many triangles
+    /// fewer, or if the call has left edges too short that it has not. `was_short` is whether
+    /// there were such before or they are not asked for. `abandon` takes the call back.
+    pub(super) fn improved(
+        &mut self,
+        changed: usize,
+        was_short: bool,
+        abandon: impl FnOnce(&mut Self),
+    ) -> Option<Outcome> {
         self.changed += changed;
         let points = self.of_slot.len();
         let share = COMPARED.into_iter().find(|c| points <= c.0)?.1;
         if self.frame.is_some() {
             return None;
         }
-        let too_short = self.has_short_edge();
+        let too_short = !was_short && self.is_short(&self.live);
         let many = points > 0 && self.changed * share >= points;
         if !too_short && !many {
             return None;
@@ -148,11 +153,19 @@ impl Session {
         self.changed = 0;
         let (ids, points) = self.present();
         let (live, slots) = self.made_at_once(&ids, &points, self.radius, self.size.as_ref()).ok()?;
-        if !too_short && self.live.counts()[1] as f64 <= MORE * live.counts()[1] as f64 {
+        let fewer = self.live.counts()[1] as f64 > MORE * live.counts()[1] as f64;
+        let better = fewer || too_short && !self.is_short(&live);
+        if !better {
             return None;
         }
         abandon(self);
         Some(self.replace((live, None), slots, self.radius, self.size.clone()))
+    }
+
+    /// Whether there are edges too short already, or too many points to ask.
+    pub(super) fn was_short(&self) -> bool {
+        let small = self.frame.is_none() && self.of_slot.len() <= COMPARED[COMPARED.len() - 1].0;
+        !small || self.is_short(&self.live)
     }
 
     /// Puts another mesh of points in the place of this one.

@@ -144,7 +144,7 @@ impl Session {
             changed: document.changed,
             history: VecDeque::new(),
         };
-        let check = session.checked(session.certificate_with(None));
+        let check = session.checked(session.certificate());
         if !check.holds() {
             return Err(SessionError::NotCertified { certificate: Box::new(check.certificate) });
         }

@@ -177,8 +177,7 @@ impl Grown {
     fn shortest_edge_allowed(&self, mesh: &TriMesh, points: &[DVec2]) -> Option<f64> {
         let lattice = self.lattice();
         let domain = (lattice.origin(), f64::from(self.steps()) * lattice.spacing(0));
-        let allowed = shortest::of_session(points, domain, mesh, self.size.as_deref());
-        allowed.map(|edge| shortest::of_lattice(&lattice, edge))
+        shortest::of_session(points, domain, mesh, self.size.as_deref())
     }
 
     /// Takes points out, by their place in the order of adding, and puts others

@@ -375,10 +375,11 @@ impl TemplateSession {
                 (Vec::new(), self.since.and_lifted()),
             );
         }
+        let all = self.all_points();
+        let was_short = self.grown.has_short_edge(&all.1);
         match self.grown.set_size(size.clone()) {
             Ok(step) => {
-                let all = self.all_points();
-                if !self.grown.has_short_edge(&all.1) {
+                if was_short || !self.grown.has_short_edge(&all.1) {
                     return Ok(self.done(step, Vec::new(), Vec::new(), self.since));
                 }
                 self.grown.take_back(step);

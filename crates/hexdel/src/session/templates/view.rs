@@ -63,10 +63,8 @@ impl TemplateSession {
     }
 
     /// The certificate of the whole mesh, made from scratch. What is said of the shortest edge
-    /// by [`Session::certificate`](crate::Session::certificate) holds here with the distances
-    /// that the levels of the lattice are made for, up to half of those that there are; a size
-    /// that goes makes the mesh anew where it would leave shorter edges, of any number of
-    /// points.
+    /// by [`Session::certificate`](crate::Session::certificate) holds here, but that it is a size
+    /// that goes, not a point, that makes the mesh anew, of any number of points.
     ///
     /// # Complexity
     ///
