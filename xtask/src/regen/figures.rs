@@ -1,4 +1,4 @@
-//! The figures of `docs/algorithm.md`, and the pair of meshes in the README.
+//! The figures of `docs/algorithm.md`, and the pair of meshes in `docs/compact.md`.
 //!
 //! Two kinds: fixtures as the facade meshes them (paper, Fig. 3, 4, 5 and 7),
 //! and the templates of relocation, each on the smallest grid that has it
