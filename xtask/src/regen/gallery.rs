@@ -59,7 +59,7 @@ const INPUTS: [Input; 6] = [
     Input {
         name: "line",
         title: "100 points on a line",
-        text: "Random points on a straight line, some of them very close to each other.",
+        text: "Random points on a straight line, some of them very close together.",
         from: From::Fixture("points/line100.node"),
         radius: None,
         close_up: None,
@@ -75,8 +75,8 @@ const INPUTS: [Input; 6] = [
     Input {
         name: "letters",
         title: "Letters",
-        text: "The outlines of I, M and R as segments, their detail growing from I to R; all angles keep\n\
-               30 to 90 degrees. Segments are drawn heavier.",
+        text: "The outlines of I, M and R as segments, with more detail from I to R. All angles are between\n\
+               30 and 90 degrees. Heavier lines are segments.",
         from: From::Fixture("graphs/letters.poly"),
         radius: None,
         close_up: Some(LETTER_R),
@@ -137,18 +137,18 @@ impl Input {
 const OPENING: &str = "\
 # Gallery
 
-The six kinds of input that the paper shows (Fig. 15 and Table 1), each meshed by the templates, the paper's
-method, and by the compact method; segments have a method of their own. Triangles are coloured by their smallest angle; the histograms count all angles.
-What random points and what letters the paper has is not published: these are like them.
+This page shows the six kinds of input of the paper (Fig. 15 and Table 1), each meshed by the templates, which is the
+paper's method, and by the compact method. Segments have a method of their own. Colours show the smallest angle of each
+triangle; the histograms count all angles. The paper's random points and letters are not published; these are similar.
 
-`cargo xtask regen` makes this page and its pictures. One by one they come from
+`cargo xtask regen` makes this page and its pictures. To make a single picture, run
 
 ```sh
 hexdel mesh fixtures/points/plane100.node -o out/plane.png --histogram --pixels 600 --method templates
 hexdel mesh fixtures/points/plane100.node -o out/plane.svg --histogram --pixels 600 --method compact
 ```
 
-More pictures: triangles by their largest angle, region, level or class, the hexagons behind a mesh, any box of it;
+Other pictures show the largest angle, region, level or class of each triangle, the hexagons behind a mesh, or a detail:
 see `hexdel plot --help`.
 ";
 
