@@ -160,7 +160,7 @@ def test_a_callable_size_is_asked_for_wherever_the_domain_goes():
 
 def test_what_has_no_effect_is_named(square, points):
     corners, sides, holes = square
-    with pytest.warns(hexdel.HexdelWarning, match="hole 1 at .* is not used"):
+    with pytest.warns(hexdel.HexdelWarning, match="hole 1 at .* has no effect"):
         hexdel.Session(corners, sides, holes=[*holes, (9.0, 9.0)])
     with pytest.warns(hexdel.HexdelWarning, match="holes and regions have no effect in a session without segments"):
         hexdel.Session(points[:5], holes=[(0.5, 0.5)], regions=[(0.2, 0.2)])

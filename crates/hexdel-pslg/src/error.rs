@@ -19,7 +19,7 @@ pub enum ValidateError {
     #[error(transparent)]
     Points(#[from] PointsError),
     /// A coordinate is so large that its square leaves the range of numbers.
-    #[error("point {index} at ({}, {}) is beyond {limit:e}", point.x, point.y)]
+    #[error("point {index} at ({}, {}) is out of range: coordinates may be up to {limit:e}", point.x, point.y)]
     OutOfRange {
         /// Index of the point.
         index: usize,
@@ -108,7 +108,7 @@ pub enum ValidateError {
 pub enum PslgError {
     /// Two parts of the input are closer than their coordinates can resolve:
     /// vertices between them would be rounded by more than angles bear.
-    #[error("{} are too close at ({}, {}): {}hexagons of {spacing:e} do not tell them apart",
+    #[error("{} are too close at ({}, {}): {}hexagons of {spacing:e} cannot separate them",
         both(*items), at.x, at.y, apart(*distance))]
     TooClose {
         /// The two parts.
@@ -122,7 +122,7 @@ pub enum PslgError {
         spacing: f64,
     },
     /// The budget of triangles is used up, or would be.
-    #[error("more than {limit} triangles are needed{}{}", around(*at), narrows(near.as_ref()))]
+    #[error("the mesh would need more than {limit} triangles{}{}", around(*at), narrows(near.as_ref()))]
     TooMany {
         /// The limit.
         limit: usize,
@@ -132,7 +132,7 @@ pub enum PslgError {
         near: Option<Near>,
     },
     /// The inside was asked for, and nothing is enclosed by segments.
-    #[error("no part of the plane is enclosed by segments and no hole{}", listed(loose, *count))]
+    #[error("the segments enclose no area outside the holes{}", listed(loose, *count))]
     NothingEnclosed {
         /// The first five points where only one segment ends.
         loose: Vec<LooseEnd>,
@@ -140,11 +140,11 @@ pub enum PslgError {
         count: usize,
     },
     /// The graph has polygons, of which meshes know nothing.
-    #[error("polygons must be made holes and regions first, by `Validated::seeded`")]
+    #[error("polygons must be converted to holes and regions first, by `Validated::seeded`")]
     NotSeeded,
     /// Away from segments the method does not keep the bounds asked for.
     #[error(
-        "angles between {} and {} degrees are more than the method keeps away from segments ({} to {})",
+        "the method cannot keep angles between {} and {} degrees away from segments, only {} to {}",
         asked.min_deg(), asked.max_deg(), kept.min_deg(), kept.max_deg()
     )]
     BoundsBeyondMethod {
@@ -160,7 +160,7 @@ pub enum PslgError {
         area: f64,
     },
     /// A length of edges is not a positive number.
-    #[error("the size at ({}, {}) is {length:?}, which is not positive", at.x, at.y)]
+    #[error("the size at ({}, {}) must be positive, got {length:?}", at.x, at.y)]
     InvalidSize {
         /// Where.
         at: DVec2,
@@ -301,7 +301,7 @@ fn listed(loose: &[LooseEnd], count: usize) -> String {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    format!("; segments end loose at {}{more}", ends.join(", "))
+    format!("; loose ends: {}{more}", ends.join(", "))
 }
 
 /// A point or segment of the input, by index.
@@ -325,7 +325,7 @@ impl std::fmt::Display for Feature {
             Self::Point(i) => write!(f, "point {i}"),
             Self::Segment(i) => write!(f, "segment {i}"),
             Self::Hull => write!(f, "the convex hull"),
-            Self::Box => write!(f, "the box around the graph"),
+            Self::Box => write!(f, "the box around the PSLG"),
             Self::Crossing => write!(f, "a crossing of segments"),
         }
     }

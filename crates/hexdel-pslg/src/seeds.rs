@@ -61,12 +61,12 @@ impl std::fmt::Display for Seed {
 
 impl std::fmt::Display for UnusedSeed {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} at ({}, {}) is not used: ", self.seed, self.at.x, self.at.y)?;
+        write!(f, "{} at ({}, {}) has no effect: ", self.seed, self.at.x, self.at.y)?;
         match self.why {
             Unused::OnSegment { segment } => write!(f, "it lies on segment {segment}"),
-            Unused::Outside => write!(f, "it lies outside of the domain"),
+            Unused::Outside => write!(f, "it lies outside the domain"),
             Unused::InHole => write!(f, "it lies in a hole"),
-            Unused::SameFace { region } => write!(f, "no segment parts it from region {region}"),
+            Unused::SameFace { region } => write!(f, "no segment separates it from region {region}"),
         }
     }
 }
@@ -90,7 +90,7 @@ impl Validated {
     /// triangle.segments = vec![[0, 1], [1, 2], [2, 0]];
     /// triangle.holes = vec![DVec2::new(0.5, 0.0), DVec2::new(0.2, 0.2)];
     /// let unused = validate(&triangle)?.unused_seeds(Extent::Inside);
-    /// assert_eq!(unused[0].to_string(), "hole 0 at (0.5, 0) is not used: it lies on segment 0");
+    /// assert_eq!(unused[0].to_string(), "hole 0 at (0.5, 0) has no effect: it lies on segment 0");
     /// assert_eq!(unused.len(), 1);
     /// # Ok::<(), hexdel_pslg::ValidateError>(())
     /// ```

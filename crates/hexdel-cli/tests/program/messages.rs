@@ -72,11 +72,11 @@ fn loose_ends_are_named_where_nothing_is_enclosed() {
     let bench = Bench::new();
     let input = fixture("triangle/box_open.poly");
     let run = bench.run(&format!("mesh {input} -o m.ele"));
-    run.refused("segments end loose at point 0 at (0, 0), point 1 at (0, 3)");
+    run.refused("loose ends: point 0 at (0, 0), point 1 at (0, 3)");
     assert!(run.err.contains("help: --domain hull") && !run.err.contains("-c "), "{}", run.err);
     bench.run(&format!("mesh {input} -q -o m.ele --domain hull")).fine();
     let run = bench.run(&format!("triangle -pQP {input}"));
-    run.refused("segments end loose");
+    run.refused("loose ends: ");
     assert!(run.err.contains("help: -c meshes the convex hull"), "{}", run.err);
     bench.file("open.poly", std::fs::read(&input).unwrap());
     bench.run("triangle -pcQ open").fine();
@@ -213,9 +213,9 @@ fn unused_holes_and_regions_are_named_by_their_line() {
         let run = bench.run(command);
         assert_eq!(run.code, 0);
         for warning in [
-            "warning: a.poly:15: hole 0 at (5, 5) is not used: it lies outside of the domain\n",
-            "warning: a.poly:16: hole 1 at (0.5, 0) is not used: it lies on segment 0\n",
-            "warning: a.poly:18: region 0 at (7, 7) is not used: it lies outside of the domain\n",
+            "warning: a.poly:15: hole 0 at (5, 5) has no effect: it lies outside the domain\n",
+            "warning: a.poly:16: hole 1 at (0.5, 0) has no effect: it lies on segment 0\n",
+            "warning: a.poly:18: region 0 at (7, 7) has no effect: it lies outside the domain\n",
         ] {
             assert!(run.err.contains(warning), "{command}: {}", run.err);
         }
@@ -235,9 +235,9 @@ fn geojson_that_is_none_is_refused_with_its_place() {
         ("wktname", ":1:1", "expected value"),
         ("xnull", ":1:45", "invalid type: null, expected f64"),
         ("nullonly", "", "the input has no points"),
-        ("lines_open", "", "no part of the plane is enclosed by segments"),
+        ("lines_open", "", "the segments enclose no area"),
         ("bowtie_r", "", "segments 0 and 2 cross at (2, 1.5)"),
-        ("sliveroverlap_r", "", "more than 50000000 triangles are needed"),
+        ("sliveroverlap_r", "", "the mesh would need more than 50000000 triangles"),
     ] {
         let file = fixture(&format!("polygons/refused/{name}.geojson"));
         bench.run(&format!("mesh {file} -o m.ele")).refused(&format!("{name}.geojson{place}: {words}"));

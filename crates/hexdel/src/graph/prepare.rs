@@ -44,7 +44,7 @@ impl Mesher {
     /// square.holes = vec![DVec2::splat(9.0)];
     /// let prepared = Mesher::new().prepared_pslg(&square)?;
     /// assert_eq!(prepared.graph.regions[0].attribute, 5.0);
-    /// assert_eq!(prepared.warnings[0].to_string(), "hole 0 at (9, 9) is not used: it lies outside of the domain");
+    /// assert_eq!(prepared.warnings[0].to_string(), "hole 0 at (9, 9) has no effect: it lies outside the domain");
     /// # Ok::<(), hexdel::Error>(())
     /// ```
     ///

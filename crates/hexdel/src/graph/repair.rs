@@ -247,11 +247,8 @@ mod tests {
             spacing: 1e-9,
         };
         for (found, told) in [
-            ([Feature::Point(2), Feature::Segment(1)], "point 2 and the box around the graph are too close"),
-            (
-                [Feature::Point(3), Feature::Segment(0)],
-                "the box around the graph and segment 0 are too close",
-            ),
+            ([Feature::Point(2), Feature::Segment(1)], "point 2 and the box around the PSLG are too close"),
+            ([Feature::Point(3), Feature::Segment(0)], "the box around the PSLG and segment 0 are too close"),
             ([Feature::Hull; 2], "two edges of the convex hull are too close"),
         ] {
             let text = repaired.error_as_given(items(found)).to_string();
@@ -282,11 +279,11 @@ mod tests {
                     at: None,
                     near: Some(Near { items: [Feature::Point(0), Feature::Segment(9)], distance: 1.0 }),
                 }),
-                "more than 5 triangles are needed, where point 10 and segment 4 are",
+                "the mesh would need more than 5 triangles, where point 10 and segment 4 are",
             ),
             (
                 Error::Pslg(PslgError::NothingEnclosed { loose: vec![LooseEnd { point: 2, at }], count: 1 }),
-                "no part of the plane is enclosed by segments and no hole; segments end loose at point 12",
+                "the segments enclose no area outside the holes; loose ends: point 12",
             ),
         ] {
             let text = names.of_mesh(error).to_string();

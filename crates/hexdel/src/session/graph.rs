@@ -356,7 +356,7 @@ impl Session {
     /// triangle.segments = vec![[0, 1], [1, 2], [2, 0]];
     /// triangle.holes = vec![DVec2::ONE];
     /// let session = Session::with_segments(&triangle, &Mesher::new())?;
-    /// assert_eq!(session.warnings()[0].to_string(), "hole 0 at (1, 1) is not used: it lies outside of the domain");
+    /// assert_eq!(session.warnings()[0].to_string(), "hole 0 at (1, 1) has no effect: it lies outside the domain");
     /// # Ok::<(), hexdel::SessionError>(())
     /// ```
     pub fn warnings(&self) -> &[Warning] {
