@@ -18,7 +18,7 @@ pub enum Error {
     #[error(transparent)]
     Points(#[from] PointsError),
     /// A coordinate is so large that its square leaves the range of numbers.
-    #[error("point {index} at ({:?}, {:?}) is beyond {limit:e}", point.x, point.y)]
+    #[error("point {index} at ({:?}, {:?}) is out of range: coordinates may be up to {limit:e}", point.x, point.y)]
     OutOfRange {
         /// Index of the point.
         index: usize,
@@ -57,7 +57,7 @@ pub enum Error {
     },
     /// The domain asked for is so much larger than the distance of the closest
     /// points that the levels run out.
-    #[error("a domain of radius {radius:?} is too large: for points this close it may be up to {most:?}")]
+    #[error("a domain of radius {radius:?} is too large: points this close allow at most {most:?}")]
     DomainTooLarge {
         /// The radius asked for.
         radius: f64,
@@ -72,7 +72,7 @@ pub enum Error {
     },
     /// The method does not keep the bounds asked for.
     #[error(
-        "angles between {} and {} degrees are more than the method keeps ({} to {})",
+        "the method cannot keep angles between {} and {} degrees, only {} to {}",
         asked.min_deg(), asked.max_deg(), kept.min_deg(), kept.max_deg()
     )]
     BoundsBeyondMethod {
@@ -84,8 +84,8 @@ pub enum Error {
     /// Within the bounds asked for no mesh can be finer in one place than in another, as
     /// points in general position need it: see [`AngleBounds::allow_grading`].
     #[error(
-        "no graded mesh has all angles between {} and {} degrees: the smallest may be asked to be {:.1} at most, \
-         the largest {} at least",
+        "no graded mesh has all angles between {} and {} degrees: the lower bound may be at most {:.1}, \
+         the upper bound at least {}",
         asked.min_deg(), asked.max_deg(), AngleBounds::MOST_GRADED_MIN_DEG, AngleBounds::LEAST_GRADED_MAX_DEG
     )]
     NoGrading {
@@ -122,13 +122,13 @@ pub enum Error {
     },
     /// An option that points have no use for; as a graph without segments they
     /// may.
-    #[error("{option} is for graphs, not for points")]
+    #[error("{option} applies to PSLGs, not to points")]
     NotForPoints {
         /// The option.
         option: &'static str,
     },
     /// An option that graphs have no use for.
-    #[error("{option} is for points, not for graphs")]
+    #[error("{option} applies to points, not to PSLGs")]
     NotForGraphs {
         /// The option.
         option: &'static str,
@@ -147,7 +147,7 @@ pub enum Error {
     #[error(transparent)]
     Delaunay(#[from] DelaunayError),
     /// The threads asked for could not be started, or are more than there may be.
-    #[error("cannot start {threads} threads: there may be up to {MAX_THREADS}")]
+    #[error("cannot start {threads} threads: at most {MAX_THREADS} are allowed")]
     Threads {
         /// How many were asked for.
         threads: usize,
@@ -183,7 +183,7 @@ pub enum Error {
     /// The finished mesh does not keep what was promised. This is a defect of
     /// the library; the mesh is handed over with what is wrong with it.
     #[error(
-        "the mesh does not certify: {} of {} triangles are out of bounds",
+        "the mesh fails its certificate: {} of {} triangles are out of bounds",
         certificate.out_of_bounds, certificate.triangles
     )]
     NotCertified {

@@ -123,6 +123,6 @@ fn edges_that_cannot_be_shorter_are_listed() {
     let report = made.report();
     let first = report.failed.first().unwrap();
     assert!(first.reason == "too long" && first.lengths.is_some_and(|[length, limit]| length > limit));
-    assert!(first.to_string().contains("an edge of"), "{first}");
+    assert!(first.to_string().contains("an edge of length"), "{first}");
     assert!(made.certificate.out_of_bounds == 0 && made.size_ratio.is_some_and(|r| r > 1.0));
 }

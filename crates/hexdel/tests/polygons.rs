@@ -120,7 +120,7 @@ fn regions_in_polygons_are_warned_of() {
     assert_eq!(made.warnings, [Warning::RegionInPolygon { region: 0, at, attributes: [7.0, 1.0] }]);
     assert_eq!(
         made.warnings[0].to_string(),
-        "region 0 at (0.5, 0.5) lies in a polygon: its attribute 7 is taken there, not 1"
+        "region 0 at (0.5, 0.5) lies in a polygon: its attribute 7 applies there, not 1"
     );
     let areas = areas(&made);
     assert!(areas.len() == 2 && areas[1].0 == 7.0 && (areas[1].1 - 42.0).abs() < 1e-9, "{areas:?}");

@@ -64,7 +64,7 @@ fn more_threads_than_there_may_be_are_refused() {
         assert_eq!(refused, SessionError::Mesh(Error::Threads { threads: 1025 }), "{method:?}");
     }
     let refused = Mesher::new().threads(usize::MAX).triangulate(&points(5)).unwrap_err();
-    let expected = format!("cannot start {} threads: there may be up to 1024", usize::MAX);
+    let expected = format!("cannot start {} threads: at most 1024 are allowed", usize::MAX);
     assert_eq!(refused.to_string(), expected);
 }
 

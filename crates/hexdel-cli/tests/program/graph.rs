@@ -142,8 +142,8 @@ fn faults_of_graphs_are_named_and_repaired_if_asked_for() {
         bench.run(&format!("mesh {} -q -o m.ele {repair}", graph("needle"))).fine();
     }
     bench.run(&format!("mesh {crossing} -o m.ele --repair=-1")).refused("must be a distance, 0 or more");
-    bench.run(&format!("mesh {crossing} -o m.ele --method simple")).refused("is for points");
-    bench.run(&format!("mesh {crossing} -o m.ele --domain-radius 9")).refused("is for points");
+    bench.run(&format!("mesh {crossing} -o m.ele --method simple")).refused("applies to points");
+    bench.run(&format!("mesh {crossing} -o m.ele --domain-radius 9")).refused("applies to points");
 }
 
 /// What fails is written, told of triangle by triangle, and exits with 1.

@@ -245,13 +245,13 @@ fn angles_may_be_asked_for() {
     assert_eq!(bench.json("r.json")["bounds"]["min_deg"], 30.0);
     assert_eq!(bench.json("r.json")["bounds"]["max_deg"], 90.0);
     for (arguments, code, message) in [
-        ("--method templates --min-angle 50", 2, "more than the method keeps"),
+        ("--method templates --min-angle 50", 2, "the method cannot keep"),
         ("--min-angle 70", 2, "no triangle has all angles"),
         ("--max-angle -1", 2, "no triangle has all angles"),
         ("--method compact --budget -1", 2, "must be a number of seconds, 0 or more"),
         ("--method compact --effort none", 2, "possible values"),
-        ("--min-angle 51.5", 2, "the smallest may be asked to be 51.4 at most"),
-        ("--max-angle 71", 2, "the largest 72 at least"),
+        ("--min-angle 51.5", 2, "the lower bound may be at most 51.4"),
+        ("--max-angle 71", 2, "the upper bound at least 72"),
         // Two points of these may be had, five may not.
         ("--method compact --min-angle 51.3 --max-angle 72.1", 1, "did not reach"),
     ] {

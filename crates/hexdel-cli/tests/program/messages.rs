@@ -93,7 +93,7 @@ fn segments_without_length_and_twice_are_dropped_with_a_warning() {
     for (name, warning) in [
         ("octagon_dupclose", "segment 8 had no length at (118.57716599999999, 28.538463999999994)"),
         ("dup_last", "segment 3 had no length at (0, -2)"),
-        ("circle_twice", "segments 2 and 13 had a part in common"),
+        ("circle_twice", "segments 2 and 13 overlapped"),
     ] {
         let input = fixture(&format!("triangle/{name}.poly"));
         let run = bench.run(&format!("mesh {input} -o m.ele --report r.json"));

@@ -59,7 +59,7 @@ fn options_without_effect_are_refused() {
         assert_eq!(bench.names(), before, "{arguments}");
     }
     let run = bench.run("mesh p.csv -o k.ele --overlaps refuse");
-    run.refused("a way with overlaps is for graphs, not for points");
+    run.refused("a choice for overlaps applies to PSLGs, not to points");
     bench.run("generate grid 5 -o k.csv --columns x,y").refused("unexpected argument '--columns'");
     bench.run("mesh p.csv -q -o k.svg --histogram --pixels 100").fine();
 }

@@ -111,8 +111,8 @@ impl GraphOptions {
             ("bounds near segments", self.near.is_some()),
             ("a limit on areas", self.max_area.is_some()),
             ("repair", self.repair.is_some()),
-            ("a way with overlaps", self.overlaps != Overlaps::default()),
-            ("a way with segments", self.segments.is_some()),
+            ("a choice for overlaps", self.overlaps != Overlaps::default()),
+            ("a choice of segment method", self.segments.is_some()),
         ];
         match given.into_iter().find(|(_, given)| *given) {
             Some((option, _)) => Err(Error::NotForPoints { option }),
@@ -383,7 +383,7 @@ impl Mesher {
     fn refuse_for_graphs(&self) -> Result<(), Error> {
         let given = [
             ("the simple method", self.method == Method::Simple),
-            ("the radius of a domain", self.domain_radius.is_some()),
+            ("a domain radius", self.domain_radius.is_some()),
             ("meshing without coarsening", self.without_coarsening),
         ];
         match given.into_iter().find(|(_, given)| *given) {

@@ -189,21 +189,21 @@ impl std::fmt::Display for ExceptionEntry {
         write!(f, "triangle {triangle} at ({x}, {y}): {min_angle_deg:.4} to {max_angle_deg:.4} degrees, ")?;
         match (self.reason, self.corner) {
             ("sector", Some(Corner { point, angle_deg, .. })) => {
-                write!(f, "segments meet in point {point} at {angle_deg:.4}")
+                write!(f, "segments meet at point {point} at {angle_deg:.4} degrees")
             }
             (_, Some(Corner { point, angle_deg, .. })) => {
-                write!(f, "near point {point}, where segments meet at {angle_deg:.4}")
+                write!(f, "near point {point}, where segments meet at {angle_deg:.4} degrees")
             }
             ("too large", _) => {
                 let [area, limit] = self.areas.unwrap_or_default();
-                write!(f, "area {area} where {limit} is allowed")
+                write!(f, "area {area}, allowed {limit}")
             }
             ("too long", _) => {
                 let [length, limit] = self.lengths.unwrap_or_default();
-                write!(f, "an edge of {length} where {limit} is allowed")
+                write!(f, "an edge of length {length}, allowed {limit}")
             }
-            ("template", _) => write!(f, "by the paper's templates"),
-            _ => write!(f, "no way was found"),
+            ("template", _) => write!(f, "as the paper's templates left it"),
+            _ => write!(f, "no remedy was found"),
         }
     }
 }
@@ -213,17 +213,17 @@ impl RepairEntry {
     pub fn new(repair: &Repair) -> Self {
         let (what, at) = match *repair {
             Repair::MergedPoint { point, into, at, distance: 0.0 } => {
-                (format!("point {point} was point {into} again"), at)
+                (format!("point {point} was a duplicate of point {into}"), at)
             }
             Repair::MergedPoint { point, into, at, distance } => {
-                (format!("point {point} went into point {into}, {distance:e} away"), at)
+                (format!("point {point} was merged into point {into}, {distance:e} away"), at)
             }
             Repair::DroppedSegment { segment, at } => (format!("segment {segment} had no length"), at),
             Repair::MergedSegments { segments: [a, b], ends } => {
-                (format!("segments {a} and {b} had a part in common"), ends[0])
+                (format!("segments {a} and {b} overlapped"), ends[0])
             }
             Repair::DividedAtPoint { segment, at, distance: 0.0 } => {
-                (format!("segment {segment} passed through a point"), at)
+                (format!("segment {segment} was divided at a point"), at)
             }
             Repair::DividedAtPoint { segment, at, distance } => {
                 (format!("segment {segment} was bent to a point {distance:e} away"), at)

@@ -69,7 +69,7 @@ impl std::fmt::Display for Warning {
                     "polygons {a} (attribute {first}) and {b} (attribute {last}) overlap at ({}, {}), ",
                     at.x, at.y
                 )?;
-                write!(f, "area {area}: {last} is taken there")
+                write!(f, "area {area}: {last} applies there")
             }
             Self::DividedBorders { at, places } => {
                 write!(f, "borders of polygons were divided at ({}, {})", at.x, at.y)?;
@@ -81,18 +81,18 @@ impl std::fmt::Display for Warning {
                 write!(f, ", where they cross or run along each other")
             }
             Self::StrayRing(StrayRing { polygon, ring, other, at }) => {
-                write!(f, "ring {ring} of polygon {polygon} takes nothing away at ({}, {}): ", at.x, at.y)?;
+                write!(f, "ring {ring} of polygon {polygon} removes nothing at ({}, {}): ", at.x, at.y)?;
                 match other {
-                    Some(other) => write!(f, "it lies in ring {other}, which is a hole already"),
-                    None => write!(f, "it lies outside of the polygon"),
+                    Some(other) => write!(f, "it lies in ring {other}, which is already a hole"),
+                    None => write!(f, "it lies outside the polygon"),
                 }
             }
             Self::RegionInPolygon { region, at, attributes: [own, polygons] } => {
                 write!(f, "region {region} at ({}, {}) lies in a polygon: ", at.x, at.y)?;
                 if own == polygons {
-                    write!(f, "its largest area is taken there, not that of the polygon")
+                    write!(f, "its largest area applies there, not that of the polygon")
                 } else {
-                    write!(f, "its attribute {own} is taken there, not {polygons}")
+                    write!(f, "its attribute {own} applies there, not {polygons}")
                 }
             }
             Self::UnusedSeed(seed) => write!(f, "{seed}"),

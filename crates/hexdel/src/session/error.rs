@@ -19,7 +19,7 @@ pub enum SessionError {
         at: DVec2,
     },
     /// A point is not inside the domain.
-    #[error("({:?}, {:?}) lies outside of the domain of radius {radius:?}, which does not grow by itself: `grow` doubles it", at.x, at.y)]
+    #[error("({:?}, {:?}) lies outside the domain of radius {radius:?}, which does not grow by itself: `grow` doubles it", at.x, at.y)]
     Outside {
         /// The point.
         at: DVec2,
@@ -27,13 +27,13 @@ pub enum SessionError {
         radius: f64,
     },
     /// A point is not in what the segments of a graph enclose.
-    #[error("({:?}, {:?}) lies outside of the domain", at.x, at.y)]
+    #[error("({:?}, {:?}) lies outside the domain", at.x, at.y)]
     NotCovered {
         /// The point.
         at: DVec2,
     },
     /// There is no room for a point, or the place of one, within the bounds.
-    #[error("no change nearby at ({:?}, {:?}) keeps the bounds", at.x, at.y)]
+    #[error("there is no room at ({:?}, {:?}): no change nearby keeps the bounds", at.x, at.y)]
     NoRoom {
         /// The point.
         at: DVec2,
@@ -45,16 +45,16 @@ pub enum SessionError {
         id: PointId,
     },
     /// An option that sessions do not keep.
-    #[error("sessions know nothing of {option}")]
+    #[error("sessions do not support {option}")]
     NotForSessions {
         /// The option.
         option: &'static str,
     },
     /// Segments were given to a session of templates.
-    #[error("sessions of templates know no segments")]
+    #[error("sessions of templates do not support segments")]
     NoSegments,
     /// There is the same point already.
-    #[error("({:?}, {:?}) is point {} already", at.x, at.y, of.0)]
+    #[error("point {} is already at ({:?}, {:?})", of.0, at.x, at.y)]
     Duplicate {
         /// The point.
         at: DVec2,
@@ -63,7 +63,7 @@ pub enum SessionError {
     },
     /// A point is so close to the rim that hexagons along it would have to be
     /// smaller than they may.
-    #[error("({:?}, {:?}) leaves no room for templates between it and the rim at {radius:?}", at.x, at.y)]
+    #[error("({:?}, {:?}) is too close to the rim at {radius:?}: there is no room for templates between them", at.x, at.y)]
     AtRim {
         /// The point, or the one closest to the rim.
         at: DVec2,
@@ -117,22 +117,22 @@ pub enum SessionError {
     #[error("a size given by a function cannot be saved")]
     CannotSave,
     /// What was read is not a saved session.
-    #[error("no session: {message}")]
+    #[error("not a saved session: {message}")]
     Unreadable {
         /// What the parser says.
         message: String,
     },
     /// What was read is a session whose mesh is none.
-    #[error("no session: {0}")]
+    #[error("not a saved session: {0}")]
     State(#[from] StateError),
     /// What was read is a session whose points are not vertices of its mesh.
-    #[error("no session: point {} must be a vertex of its own", id.0)]
+    #[error("not a saved session: point {} must be a vertex of its own", id.0)]
     Points {
         /// The first such point.
         id: PointId,
     },
     /// What was read is a session whose mesh does not hold.
-    #[error("no session: its mesh does not hold, {} triangles are out of bounds", certificate.out_of_bounds)]
+    #[error("not a valid session: {} triangles of its mesh are out of bounds", certificate.out_of_bounds)]
     NotCertified {
         /// What its certificate says.
         certificate: Box<Certificate>,

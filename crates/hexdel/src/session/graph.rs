@@ -224,7 +224,7 @@ impl Session {
             return Err(SessionError::NotForSessions { option: "a limit on areas" });
         }
         if options.method == SegmentMethod::Paper {
-            return Err(SessionError::NotForSessions { option: "the paper's way with segments" });
+            return Err(SessionError::NotForSessions { option: "the paper's method for segments" });
         }
         let begin = |mesher: &Mesher| -> Result<Self, SessionError> {
             let made = mesher.triangulate_pslg(graph)?;

@@ -425,7 +425,7 @@ impl Session {
     /// a graph.
     pub fn grow(&mut self) -> Result<Outcome, SessionError> {
         if self.frame.is_some() {
-            return Err(SessionError::NotForSessions { option: "growing of a graph's domain" });
+            return Err(SessionError::NotForSessions { option: "growing the domain of a PSLG" });
         }
         let (ids, points) = self.present();
         self.remesh(&ids, &points, 2.0 * self.radius, self.size.clone())

@@ -23,7 +23,7 @@ use thiserror::Error as ThisError;
 #[non_exhaustive]
 pub enum SizeError {
     /// A length is not positive.
-    #[error("{what} has the size {size:?}, which is not positive")]
+    #[error("the size of {what} must be positive, got {size:?}")]
     NotPositive {
         /// What has it.
         what: String,
@@ -31,7 +31,7 @@ pub enum SizeError {
         size: f64,
     },
     /// A length is below what coordinates resolve in the domain.
-    #[error("the size {size:e} is below {least:e}, what coordinates resolve there")]
+    #[error("the size {size:e} is below {least:e}, the smallest that coordinates resolve there")]
     BelowResolution {
         /// The length.
         size: f64,
@@ -45,7 +45,7 @@ pub enum SizeError {
         gradation: f64,
     },
     /// A region has a corner that is not finite, or fewer than three corners.
-    #[error("a region of {corners} corners that are not all finite, or fewer than three")]
+    #[error("a region needs three or more corners, all of them finite, got {corners} corners")]
     Region {
         /// Its corners.
         corners: usize,
