@@ -222,7 +222,7 @@ pub(crate) fn by_names(names: &[&str]) -> Result<[usize; 2], &'static str> {
     }
     match found[..] {
         [columns] if !twice => Ok(columns),
-        [] if !twice => Err("the header does not tell which columns are x and y"),
+        [] if !twice => Err("the header does not say which columns are x and y"),
         _ => Err("the header has several columns that could be x and y"),
     }
 }
@@ -271,15 +271,15 @@ mod tests {
     #[test]
     fn other_names_do_not_tell() {
         for (names, words) in [
-            (&["a", "b"][..], "does not tell"),
-            (&["x", "z"], "does not tell"),
-            (&["length", "width"], "does not tell"),
-            (&["pose", "posn"], "does not tell"),
-            (&["lon", "northing"], "does not tell"),
+            (&["a", "b"][..], "does not say"),
+            (&["x", "z"], "does not say"),
+            (&["length", "width"], "does not say"),
+            (&["pose", "posn"], "does not say"),
+            (&["lon", "northing"], "does not say"),
             (&["lon", "lat", "east", "north"], "several"),
-            (&["x1", "y1", "x2", "y2"], "does not tell"),
+            (&["x1", "y1", "x2", "y2"], "does not say"),
             (&["x_utm", "x_map", "y_utm"], "several"),
-            (&["next", "latest"], "does not tell"),
+            (&["next", "latest"], "does not say"),
         ] {
             assert!(by_names(names).unwrap_err().contains(words), "{names:?}");
         }

@@ -84,7 +84,7 @@ impl MeshData {
         }
         let triangles = self.mesh.triangles.len();
         if let Some(wrong) = self.promised.as_ref().and_then(|promised| promised.wrong_triangle(triangles)) {
-            let expected = "exempt triangles that are there, each once";
+            let expected = "existing triangles as exempt, each once";
             let (file, found) = (file.to_owned(), wrong.to_string());
             return Err(ReadError::Malformed { file, line: 0, column: 0, expected, found });
         }

@@ -369,8 +369,8 @@ fn listed(errors: &[ReadError], count: u64) -> String {
     let mut lines: Vec<String> = errors.iter().map(ToString::to_string).collect();
     match count.saturating_sub(errors.len() as u64) {
         0 => {}
-        more if count >= MOST_FAULTS => lines.push(format!("and {more} more of the kind, or yet more")),
-        more => lines.push(format!("and {more} more of the kind")),
+        more if count >= MOST_FAULTS => lines.push(format!("and at least {more} more of this kind")),
+        more => lines.push(format!("and {more} more of this kind")),
     }
     lines.join("\n")
 }

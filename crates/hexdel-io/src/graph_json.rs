@@ -290,7 +290,7 @@ mod tests {
                 "{\"points\": [[1, 2]], \"segments\": [[0, 1], [2, 0], [3, 4], [0, 0], [5, 6]], \"point_markers\": [1, 2]}",
                 "f: segment 0 ends at point 1, of 1 points\nf: segment 1 ends at point 2, of 1 points\n\
                  f: segment 2 ends at point 3, of 1 points\nf: segment 2 ends at point 4, of 1 points\n\
-                 f: segment 4 ends at point 5, of 1 points\nand 1 more of the kind",
+                 f: segment 4 ends at point 5, of 1 points\nand 1 more of this kind",
             ),
             (
                 "{\"points_x\": [1], \"points_y\": [1], \"region_boundary\": [0, 7, 8], \"additional_constraints\": [[9, 0]]}",

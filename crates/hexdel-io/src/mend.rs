@@ -72,7 +72,7 @@ impl Mends {
                 return Ok(row.fields());
             }
             let comma = &row.text[at..=at];
-            self.forgive("commas are taken for spaces", || {
+            self.forgive("commas are read as spaces", || {
                 row.malformed("white space between fields", Some(comma))
             })?;
         }

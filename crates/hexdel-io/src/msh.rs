@@ -227,7 +227,7 @@ impl<R: BufRead> Msh<R> {
         if self.nodes.add(tag) {
             return Ok(());
         }
-        Err(self.tokens.malformed("a node that was not there before", None))
+        Err(self.tokens.malformed("a node number that is not in use", None))
     }
 
     fn node(&mut self) -> Result<(), ReadError> {
@@ -324,7 +324,7 @@ impl<R: BufRead> Msh<R> {
         let tag: u64 = self.tokens.parse("the number of a node")?;
         match self.nodes.index(tag) {
             Some(index) => Ok(VertexId::new(index)),
-            None => Err(self.tokens.malformed("the number of a node that is there", None)),
+            None => Err(self.tokens.malformed("the number of an existing node", None)),
         }
     }
 

@@ -23,7 +23,7 @@ const MAX_POINTS: usize = u32::MAX as usize;
 
 /// What a header without names, or a first column that counts, comes to.
 const COUNTS_ROWS: &str =
-    "the first column looks like a number of the row, and nothing tells which columns are x and y";
+    "the first column looks like row numbers, and nothing says which columns are x and y";
 
 /// Reads a table of points.
 pub(crate) fn read_table(
@@ -428,7 +428,7 @@ mod tests {
 
     #[test]
     fn what_does_not_tell_is_refused_with_the_header() {
-        let does_not_tell = "the header does not tell which columns are x and y";
+        let does_not_tell = "the header does not say which columns are x and y";
         for (text, message) in [
             ("a,b\n1,2", format!("t:1: {does_not_tell}: \"a,b\"")),
             ("# c\nfid,where,when\n1,2,3", format!("t:2: {does_not_tell}: \"fid,where,when\"")),
@@ -497,8 +497,8 @@ mod tests {
             "t:2: expected the y coordinate, found \"a\"\nt:4: expected the y coordinate, found \"b\""
         );
         let many = refused(&format!("x,y\n{}", "1,a\n".repeat(9)));
-        assert!(many.ends_with("\nand 4 more of the kind") && many.lines().count() == 6, "{many}");
+        assert!(many.ends_with("\nand 4 more of this kind") && many.lines().count() == 6, "{many}");
         let endless = refused(&format!("x,y\n{}", "1,a\n".repeat(5000)));
-        assert!(endless.ends_with("and 995 more of the kind, or yet more"), "{endless}");
+        assert!(endless.ends_with("and at least 995 more of this kind"), "{endless}");
     }
 }

@@ -273,7 +273,7 @@ fn marker_column(header: &mut Fields<'_>) -> Result<bool, ReadError> {
 fn attribute(fields: &mut Fields<'_>, count: usize, mends: &mut Mends) -> Result<f64, ReadError> {
     if count <= MOST_FILLED_IN && fields.peek().is_none() {
         let missing = || fields.row.malformed("an attribute", None);
-        mends.forgive("missing attributes are taken to be 0", missing)?;
+        mends.forgive("missing attributes are read as 0", missing)?;
         return Ok(0.0);
     }
     fields.number("an attribute")
@@ -293,13 +293,13 @@ fn push_marker(
     let marker = match fields.peek() {
         None => {
             let missing = || fields.row.malformed(EXPECTED, None);
-            mends.forgive("missing markers are taken to be 0", missing)?;
+            mends.forgive("missing markers are read as 0", missing)?;
             0
         }
         Some(text) => match whole(text) {
             Some(marker) => {
                 let fault = || fields.row.malformed(EXPECTED, Some(text));
-                mends.forgive("markers with a decimal point are taken for integers", fault)?;
+                mends.forgive("markers with a decimal point are read as integers", fault)?;
                 fields.text();
                 marker
             }
@@ -321,7 +321,7 @@ fn whole(text: &str) -> Option<i32> {
 fn end(fields: Fields<'_>, mends: &mut Mends) -> Result<(), ReadError> {
     match fields.end() {
         Ok(()) => Ok(()),
-        Err(fault) => mends.forgive("fields beyond those announced are left", || fault),
+        Err(fault) => mends.forgive("fields beyond those announced are ignored", || fault),
     }
 }
 
@@ -466,7 +466,7 @@ fn row_number(
     if refers {
         return Err(fault);
     }
-    mends.forgive("rows are taken in their order", || fault)?;
+    mends.forgive("rows are read in the order of the file", || fault)?;
     Ok(due)
 }
 

@@ -236,7 +236,7 @@ impl Grid {
     fn keep(&mut self, want: Want, array: Array) -> Result<(), ReadError> {
         if matches!(want, Want::Bounds | Want::Domain | Want::Exempt) {
             if self.fields.iter().any(|(w, ..)| *w == want) {
-                return Err(self.fault("field data that the file has already".to_owned()));
+                return Err(self.fault("the file has this field data twice".to_owned()));
             }
             self.fields.push((want, array, self.line.get()));
             return Ok(());
@@ -246,8 +246,8 @@ impl Grid {
                 piece.arrays.push((want, array));
                 return Ok(());
             }
-            Some(_) => "an array that the Piece has already",
-            None => "an array outside of a Piece",
+            Some(_) => "the Piece has this array twice",
+            None => "an array outside a Piece",
         };
         Err(self.fault(fault.to_owned()))
     }

@@ -343,7 +343,7 @@ mod tests {
                 "LINESTRING (a 2, 3 b,\n c d, 1 2), POINT (e f",
                 "f:1: expected the x coordinate, found \"a\"\nf:1: expected the y coordinate, found \"b\"\n\
                  f:2: expected the x coordinate, found \"c\"\nf:2: expected the y coordinate, found \"d\"\n\
-                 f:2: expected the x coordinate, found \"e\"\nand 1 more of the kind",
+                 f:2: expected the x coordinate, found \"e\"\nand 1 more of this kind",
             ),
             ("POLYGON (1 2, 3 4)", "f:1: expected \"(\" or EMPTY, found \"1\""),
             ("POINT (1 2))", "f:1: expected the name of a geometry, found \")\""),

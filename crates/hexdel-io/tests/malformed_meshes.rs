@@ -32,7 +32,7 @@ fn msh_of_both_versions() {
         (v4("$Nodes\n1 2 1 2\n2 1 0 1\n1\n0 0 0\n$EndNodes\n"), "f:8: 1 nodes instead of 2"),
         (
             v4("$Nodes\n1 2 1 2\n2 1 0 2\n7 7\n"),
-            "f:7: expected a node that was not there before, found \"7\"",
+            "f:7: expected a node number that is not in use, found \"7\"",
         ),
         (
             v4("$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 1\n"),
@@ -46,14 +46,14 @@ fn msh_of_both_versions() {
         (v4("$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n"), "f:7: an element of type 4 cannot be read"),
         (
             v2(&format!("{nodes}$Elements\n1\n1 2 2 0 1 1 2 4\n")),
-            "f:12: expected the number of a node that is there, found \"4\"",
+            "f:12: expected the number of an existing node, found \"4\"",
         ),
         (
             v2(&format!("{nodes}$Elements\n2\n1 2 2 0 1 9 2 4\n1 2 2 0 1 1 x 5\n$EndElements\n")),
-            "f:12: expected the number of a node that is there, found \"9\"\n\
-             f:12: expected the number of a node that is there, found \"4\"\n\
+            "f:12: expected the number of an existing node, found \"9\"\n\
+             f:12: expected the number of an existing node, found \"4\"\n\
              f:13: expected the number of a node, found \"x\"\n\
-             f:13: expected the number of a node that is there, found \"5\"",
+             f:13: expected the number of an existing node, found \"5\"",
         ),
         (
             v2("$Nodes\n3\n1 0 z 0\n2 1 0 1\n3 0 y 0\n$EndNodes\n$Elements\nx"),
@@ -134,7 +134,7 @@ fn vtu_of_all_sorts() {
         ((">5<", ">9<"), "f:11: a cell of type 9 with 3 corners cannot be read"),
         (
             ("</Cells>", "<DataArray type=\"Int32\" Name=\"offsets\">3</DataArray></Cells>"),
-            "f:10: an array that the Piece has already",
+            "f:10: the Piece has this array twice",
         ),
         (("</Cells></Piece>", "</Piece>"), "f:10: ill-formed document"),
         (("</VTKFile>\n", ""), "f:10: the file ends within a tag"),
@@ -238,7 +238,7 @@ fn promises_that_make_no_sense_are_refused_with_their_line() {
         )
     };
     for (exempt, found) in [("[1]", "1"), ("[0, 0]", "0")] {
-        let message = format!("f: expected exempt triangles that are there, each once, found {found}");
+        let message = format!("f: expected existing triangles as exempt, each once, found {found}");
         assert_eq!(error(MeshFormat::Json, &promised(exempt)).to_string(), message);
     }
     for exempt in ["[-1]", "[0.5]"] {
@@ -333,5 +333,5 @@ fn promises_of_vtu_are_refused_with_their_line() {
     }
     let twice = all("30 90 43 90", "3", "0")
         .replace("</FieldData>", &format!("{}</FieldData>", field("domain", "3")));
-    assert!(error(MeshFormat::Vtu, &with(&twice)).to_string().contains("that the file has already"));
+    assert!(error(MeshFormat::Vtu, &with(&twice)).to_string().contains("has this field data twice"));
 }

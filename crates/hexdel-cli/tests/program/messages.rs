@@ -116,7 +116,7 @@ fn faults_of_a_kind_are_told_together() {
     bench.file("t.csv", format!("x,y\n0,0\n{rows}"));
     let run = bench.run("mesh t.csv -o m.ele");
     run.refused("t.csv:3: expected the y coordinate, found \"x0\"\nt.csv:4: ");
-    assert!(run.err.contains("t.csv:7: ") && run.err.contains("\nand 3 more of the kind\n"), "{}", run.err);
+    assert!(run.err.contains("t.csv:7: ") && run.err.contains("\nand 3 more of this kind\n"), "{}", run.err);
     bench.file("s.poly", "2 2\n1 0 0\n2 1 0\n3 0\n1 1 9\n2 1 2\n3 8 2\n0\n");
     let run = bench.run("mesh s.poly -o m.ele");
     run.refused("s.poly:5: no point 9, there are 2 counted from 1\ns.poly:7: no point 8");
@@ -139,20 +139,17 @@ fn files_that_triangle_reads_are_read_with_a_warning() {
     for (name, warning) in [
         (
             "p_extra_marker",
-            "p_extra_marker.poly:2: expected end of line, found \"5\"; fields beyond those announced are left, and 7 times more",
+            "p_extra_marker.poly:2: expected end of line, found \"5\"; fields beyond those announced are ignored, and 7 times more",
         ),
         (
             "p_missing_marker",
-            "expected a boundary marker, found end of line; missing markers are taken to be 0, and 7 times more",
+            "expected a boundary marker, found end of line; missing markers are read as 0, and 7 times more",
         ),
         (
             "p_comma",
-            "p_comma.poly:1: expected white space between fields, found \",\"; commas are taken for spaces, and 9 times more",
+            "p_comma.poly:1: expected white space between fields, found \",\"; commas are read as spaces, and 9 times more",
         ),
-        (
-            "p_float_int",
-            "found \"1.0\"; markers with a decimal point are taken for integers, and 7 times more",
-        ),
+        ("p_float_int", "found \"1.0\"; markers with a decimal point are read as integers, and 7 times more"),
     ] {
         let input = fixture(&format!("triangle/{name}.poly"));
         let run = bench.run(&format!("mesh {input} -q -o m.ele --report r.json"));

@@ -46,7 +46,7 @@ fn a_header_that_does_not_tell_asks_for_columns() {
     let bench = Bench::new();
     bench.file("a.csv", "objectid,where,up,h\n1,5,6,7\n2,6,8,7\n3,5,8,7\n");
     let run = bench.run("mesh a.csv -o m.ele");
-    run.refused("a.csv:1: the header does not tell which columns are x and y: \"objectid,where,up,h\"");
+    run.refused("a.csv:1: the header does not say which columns are x and y: \"objectid,where,up,h\"");
     assert!(run.err.contains("help: --columns where,up, by name or number"), "{}", run.err);
     for asked in ["where,up", "2,3", "WHERE,3"] {
         let run = bench.run(&format!("mesh a.csv -o m.ele --columns {asked}"));
@@ -61,12 +61,12 @@ fn a_header_that_does_not_tell_asks_for_columns() {
     // Without a header, a first column that counts.
     bench.file("b.xyz", "1 5 6\n2 6 8\n3 5 8\n");
     let run = bench.run("mesh b.xyz -o n.ele");
-    run.refused("b.xyz:1: the first column looks like a number of the row");
+    run.refused("b.xyz:1: the first column looks like row numbers");
     assert!(run.err.contains("help: --columns 2,3,"), "{}", run.err);
     bench.run("mesh b.xyz -o n.ele --columns 2,3").fine();
     assert_eq!(bench.read("n.node"), bench.read("m.node"));
     for command in ["check n.ele --input b.xyz", "convert b.xyz c.xyz", "plot n.ele -o n.svg --input b.xyz"] {
-        bench.run(command).refused("the first column looks like a number of the row");
+        bench.run(command).refused("the first column looks like row numbers");
         bench.run(&format!("{command} --columns 2,3")).fine();
     }
     // Of what is no table, columns are nothing.
