@@ -21,8 +21,8 @@ use std::path::{Path, PathBuf};
     .edge, .neigh, .poly, .svg, .png\n\
     Points    .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron; read only: .geojson,\n          \
     .wkt, .json of CG:SHOP\n\
-    A .node is a mesh only where the other side can be nothing else. Markers, regions and\n\
-    marked edges are kept where the format has them; what is lost is said.\n\n\
+    A .node is read as a mesh only if the output can be nothing else. Markers, regions and\n\
+    marked edges are kept if the format has them; a warning names what is lost.\n\n\
     Examples:\n  \
     hexdel convert mesh.ele mesh.vtu\n  \
     hexdel convert old.msh new.msh --format msh2\n  \

@@ -9,9 +9,9 @@ use std::path::PathBuf;
 /// Voronoi cells of a mesh, for finite volumes and exterior calculus
 #[derive(clap::Args)]
 #[command(after_help = "\
-    Each vertex has a cell, cut off at the boundary. Weights are half the sums of the\n\
-    cotangents opposite an edge: dual length over length, the transmissibilities of a\n\
-    two-point flux. Exits with 1 if one is negative.\n\n\
+    Each vertex has a cell, clipped at the boundary. The weight of an edge is its dual\n\
+    length over its length, half the sum of the opposite cotangents: the transmissibility\n\
+    of a two-point flux. Exit status 1 if a weight is negative.\n\n\
     Formats, by extension:\n  \
     .vtu             cells as polygons, with their vertex and area\n  \
     .v.node, .v.edge circumcentres and the edges between them, as Triangle has them\n\n\
@@ -19,12 +19,12 @@ use std::path::PathBuf;
     hexdel dual mesh.ele -o cells.vtu\n  \
     hexdel dual mesh.vtu -o mesh.v.node --json")]
 pub(crate) struct Args {
-    /// Mesh, in any format that is read, - for standard input
+    /// Mesh in any readable format, - for standard input
     mesh: PathBuf,
     /// File to write; may be given several times
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format of MESH if that is -
+    /// Format of MESH if it is -
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     format: Option<String>,
     /// Print JSON
@@ -59,7 +59,7 @@ fn readable(file: &str, dual: &Voronoi<'_>, summary: &VoronoiSummary) -> String 
     format!(
         "{file}: {} edges, {} cells\n\
          weights    {} negative, the smallest {}\n\
-         triangles  {} do not hold their circumcentre\n\
+         triangles  {} do not contain their circumcentre\n\
          dual edges the shortest {}, skew at most {:.1e}\n\
          cells      the smallest area {}\n",
         dual.edges.len(),

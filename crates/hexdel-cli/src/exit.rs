@@ -33,7 +33,7 @@ pub(crate) enum Failure {
     #[error("{file}: {source}{more}")]
     Mesh { file: String, source: Box<hexdel::Error>, more: String },
     #[error("{file}: {source}")]
-    #[diagnostic(help("`hexdel check` tells all that is wrong with a mesh"))]
+    #[diagnostic(help("`hexdel check` lists everything that is wrong with a mesh"))]
     Voronoi { file: String, source: hexdel::geom::VoronoiError },
     #[error(transparent)]
     #[diagnostic(help("the smallest angle is at most 60 degrees, the largest at least 60"))]
@@ -47,14 +47,14 @@ pub(crate) enum Failure {
     ReplacesInput { file: PathBuf },
     #[error("{}: two outputs of the same name", file.display())]
     Twice { file: PathBuf },
-    #[error("{of} tells no levels or classes of hexagons to colour by")]
+    #[error("{of} has no levels or classes of hexagons to colour by")]
     #[diagnostic(help(
-        "`hexdel mesh INPUT --method templates -o x.svg --colour level` knows them, and with --method simple"
+        "use `hexdel mesh INPUT --method templates -o x.svg --colour level`, or --method simple"
     ))]
     NoHexagons { of: String },
     /// What was read is nothing that the format of the output holds.
-    #[error("{file}: holds {found}, which {format} does not")]
-    #[diagnostic(help("a mesh goes to a format of meshes, points to one of points"))]
+    #[error("{file}: contains {found}, which {format} cannot store")]
+    #[diagnostic(help("convert a mesh to a mesh format, points to a point format"))]
     Conversion { file: String, found: &'static str, format: String },
     #[error("standard {stream} has no extension to tell its format")]
     NoFormat { stream: &'static str },
@@ -73,7 +73,7 @@ pub(crate) enum Failure {
     #[error("-{switch}: {why}")]
     #[diagnostic(help("docs/triangle-users.md says what each switch does here"))]
     Switch { switch: String, why: String },
-    #[error("no JSON of the figures: {0}")]
+    #[error("cannot write the statistics as JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
 

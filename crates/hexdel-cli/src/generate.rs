@@ -14,7 +14,7 @@ use std::path::PathBuf;
 /// their mesh would have more vertices than 32-bit indices can tell apart.
 const MAX_POINTS: u64 = 100_000_000;
 
-/// Make points to test with
+/// Make test points
 #[derive(clap::Args)]
 #[command(after_help = "\
     The same kind, number and seed give the same file everywhere.\n\n\
@@ -26,10 +26,10 @@ pub(crate) struct Args {
     /// How many points
     #[arg(value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_POINTS))]
     n: u64,
-    /// Another seed, other points
+    /// Seed of the random numbers
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
-    /// Where to: .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron or -
+    /// Output: .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron or -
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Format of `-`

@@ -12,10 +12,10 @@ const STDIN: &str = "<stdin>";
 /// The formats of standard input and output.
 #[derive(clap::Args, Clone, Default)]
 pub(crate) struct Formats {
-    /// Format of `-` as output, or as input if only that is `-`
+    /// Format of standard output, or of standard input if only that is `-`
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     format: Option<String>,
-    /// Format of `-` as input, if that of output is another
+    /// Format of standard input, if it differs from that of the output
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     input_format: Option<String>,
     /// Columns of x and y in a table, by name or number

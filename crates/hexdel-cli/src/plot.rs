@@ -11,10 +11,10 @@ use std::path::PathBuf;
 /// Draw a mesh, coloured by its angles or regions
 #[derive(clap::Args)]
 #[command(after_help = "\
-    The bounds are where colour scales end and what the histogram marks; angles\n\
-    beyond them are red. Levels and classes are those of the hexagons behind a\n\
-    mesh, which files do not tell: `hexdel mesh` has these options too, --size as\n\
-    --pixels.\n\n\
+    The bounds are the ends of the colour scales and the marks in the histogram;\n\
+    angles beyond them are red. Mesh files do not record levels and classes of\n\
+    hexagons: to colour by them, use `hexdel mesh`, which has these options, too\n\
+    (--size as --pixels).\n\n\
     Examples:\n  \
     hexdel plot mesh.ele -o mesh.svg --histogram\n  \
     hexdel plot mesh.ele -o corner.png --colour largest --zoom 0,0,0.5,0.5 --size 2000")]
@@ -26,13 +26,13 @@ pub(crate) struct Args {
     output: Vec<PathBuf>,
     #[command(flatten)]
     picture: PictureArgs,
-    /// The smallest angle held to be good, degrees
+    /// Smallest good angle, degrees
     #[arg(long, value_name = "DEG", default_value_t = AngleBounds::EXTENDED.min_deg(), allow_negative_numbers = true)]
     min_angle: f64,
-    /// The largest angle held to be good, degrees
+    /// Largest good angle, degrees
     #[arg(long, value_name = "DEG", default_value_t = AngleBounds::EXTENDED.max_deg(), allow_negative_numbers = true)]
     max_angle: f64,
-    /// File of points to be drawn where they are vertices
+    /// File of points to draw where they are vertices
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(crate) struct PictureArgs {
     /// Add a histogram of all angles
     #[arg(long)]
     histogram: bool,
-    /// Show a box only, from one corner to the opposite one
+    /// Show only a box, given by opposite corners
     #[arg(long, value_name = "X,Y,X,Y", value_parser = zoom, allow_hyphen_values = true)]
     zoom: Option<Zoom>,
     /// Longer side of the drawing, pixels [default: 1000]

@@ -17,7 +17,7 @@ pub(crate) fn of(failure: &Failure, command: Option<&Command>) -> Option<String>
             Some("--input-format NAME says what the input is, --format NAME what the output is".to_owned())
         }
         Failure::NoFormat { stream: "input" } if of.has("input-format") => {
-            Some("name it with --format, or with --input-format if that of the output is another".to_owned())
+            Some("name it with --format, or with --input-format if the output has another format".to_owned())
         }
         Failure::NoFormat { .. } => of.has("format").then(|| "name it with --format".to_owned()),
         Failure::Mesh { source, file, .. } => of.meshing(source, file),
@@ -57,7 +57,7 @@ impl Remedies<'_> {
             }
             ReadError::UnknownExtension { file, known } => self.naming_a_format(file, known),
             ReadError::PointsElsewhere { .. } => {
-                Some("give the name of the .poly in the place of -, with its .node beside it".to_owned())
+                Some("give the name of the .poly instead of -, with its .node beside it".to_owned())
             }
             _ => None,
         }
@@ -75,7 +75,7 @@ impl Remedies<'_> {
             (false, true) => "--input - --format csv",
             (false, false) => "- --format csv",
         };
-        Some(format!("the format can be named if the file comes by standard input: {stream} < {file}"))
+        Some(format!("to name the format, read the file from standard input: {stream} < {file}"))
     }
 
     fn meshing(&self, error: &hexdel::Error, file: &str) -> Option<String> {
@@ -84,14 +84,14 @@ impl Remedies<'_> {
         match error {
             E::TooClose { least, .. } => {
                 let repair = repair(&format!("={:e}", above(*least)))?;
-                Some(format!("{repair} makes one point of those that are closer than that"))
+                Some(format!("{repair} merges points that are closer than that"))
             }
             E::DomainTooSmall { least, .. } => self.radius(above(*least)),
             E::DomainTooLarge { most, .. } => self.radius(below(*most)),
             E::Segments(ValidateError::Crossing { .. } | ValidateError::Overlap { .. }) => {
                 let (repair, within) = (repair("")?, repair("=TOL")?);
                 Some(format!(
-                    "{repair} divides segments where they meet; {within} joins what is up to TOL apart as well"
+                    "{repair} divides segments where they meet; {within} also joins what is up to TOL apart"
                 ))
             }
             E::Segments(ValidateError::NotFollowed { .. }) => {
@@ -107,7 +107,7 @@ impl Remedies<'_> {
             }
             E::Pslg(PslgError::TooClose { items: [Feature::Hull, Feature::Hull], .. }) => {
                 let domain = self.option("domain", "--domain hexagon or box")?;
-                Some(format!("{domain} meshes what is around points nearly in line, too"))
+                Some(format!("{domain} meshes the area around points that are nearly in line"))
             }
             E::Pslg(error) => {
                 // Rounded to one digit it is still enough.
@@ -116,14 +116,14 @@ impl Remedies<'_> {
             }
             E::NotForGraphs { option } if option.contains("radius") => {
                 let domain = self.option("domain", "--domain hexagon, hull or box")?;
-                Some(format!("{domain} says what to mesh around a graph"))
+                Some(format!("{domain} says what to mesh around a PSLG"))
             }
             E::NotForGraphs { option } if option.contains("simple") => {
                 self.option("method", "--method compact or --method templates").map(str::to_owned)
             }
             E::NotForPoints { .. } if self.has("repair") => {
                 let domain = self.option("domain", "--domain hull, box or hexagon with --repair")?;
-                Some(format!("{domain} meshes points as a graph"))
+                Some(format!("{domain} meshes points as a PSLG"))
             }
             _ => None,
         }

@@ -84,7 +84,7 @@ fn meant(name: &str, command: &Command) -> Option<String> {
     if let Some((_, option, usage)) = same
         && command.get_arguments().any(|argument| is_same(argument, option, usage))
     {
-        return Some(format!("the same here is '{usage}'"));
+        return Some(format!("use '{usage}'"));
     }
     let option = same.map_or(name, |(_, option, _)| option);
     let ordinal = command.get_positionals().zip(["first", "second"]);
@@ -148,7 +148,7 @@ mod tests {
             for name in SAME.iter().flat_map(|(names, ..)| *names) {
                 let Some(tip) = meant(name, command) else { continue };
                 told += 1;
-                let Some(usage) = tip.strip_prefix("the same here is '") else { continue };
+                let Some(usage) = tip.strip_prefix("use '") else { continue };
                 let option = usage.trim_start_matches('-').split([' ', '=', '\'']).next().unwrap();
                 let has = |a: &Arg| {
                     a.get_long() == Some(option)
@@ -160,7 +160,7 @@ mod tests {
         assert!(told > 50, "{told}");
         let commands = Cli::command();
         let of = |command: &str, name: &str| meant(name, commands.find_subcommand(command).unwrap());
-        assert_eq!(of("mesh", "h").unwrap(), "the same here is '--size H'");
+        assert_eq!(of("mesh", "h").unwrap(), "use '--size H'");
         // The size of a picture is another one.
         assert_eq!(of("plot", "h"), None);
         assert_eq!(of("check", "repair-tolerance"), None);

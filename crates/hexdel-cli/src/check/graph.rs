@@ -114,7 +114,7 @@ impl OfGraph {
         }
         if self.exempt > 0 {
             let n = self.exempt;
-            findings.push((true, format!("{n} triangles exempt in corners narrower than the bound")));
+            findings.push((true, format!("{n} triangles exempt at corners narrower than the bound")));
         }
         if let Some(far) = self.far.as_ref().filter(|far| far.far > 0) {
             let (n, broken) = (far.far, far.broken.len());
@@ -133,8 +133,8 @@ impl OfGraph {
         let segments = self.segments.missing.iter().map(|missing| {
             let MissingSegment { segment, ends, reached, .. } = missing;
             let reached = match reached {
-                None => "no vertex at its start".to_owned(),
-                Some(p) => format!("edges lead to ({}, {}) only", p.x, p.y),
+                None => "there is no vertex at its start".to_owned(),
+                Some(p) => format!("edges lead only to ({}, {})", p.x, p.y),
             };
             format!("segment {segment} {}: {reached}", points(ends))
         });

@@ -20,18 +20,18 @@ const SHOWN: usize = 10;
 /// Check a mesh: angles, Delaunay, topology, input points and segments
 #[derive(clap::Args)]
 #[command(after_help = "\
-    By default angles are held to what the file says (.ele, .vtu, .msh, .json, .ron), else told.\n\
-    The Delaunay property and orientations are decided exactly. Exits with 1 if it does not hold.\n\n\
-    With segments in the input each must be a union of edges, unless it lies in\n\
-    a hole or outside; corners narrower than the smallest angle are exempt; holes\n\
-    may be where they like.\n\n\
+    By default angles are checked against the bounds in the file, or only reported if it has none.\n\
+    The Delaunay property and orientations are decided exactly. Exit status 1 if a check fails.\n\n\
+    Each segment of the input must be a union of edges, unless it lies in a hole or\n\
+    outside. Corners narrower than the smallest angle are exempt, and holes may be\n\
+    anywhere.\n\n\
     Examples:\n  \
     hexdel check mesh.ele --input letters.poly\n  \
     hexdel check mesh.ele --min-angle 20 --max-angle 140 --json")]
 pub(crate) struct Args {
-    /// Mesh, in any format that is read, such as .ele (with its .node), .vtu or .msh
+    /// Mesh in any readable format, such as .ele (with its .node), .vtu or .msh
     mesh: PathBuf,
-    /// File of points that must be vertices, bit for bit, and of segments
+    /// File of points that must be vertices, bit for bit, and segments
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
     /// Smallest angle, degrees [default: the file's; 0 with --max-angle]
@@ -185,7 +185,7 @@ fn readable(name: &str, found: &Found) -> String {
         let _ = writeln!(text, "  - and more");
     }
     if !found.has_input {
-        let _ = writeln!(text, "  --input FILE would tell whether its points and segments are in the mesh");
+        let _ = writeln!(text, "  --input FILE also checks that its points and segments are in the mesh");
     }
     let _ = writeln!(text, "{}", if found.holds() { "holds" } else { "does not hold" });
     text
@@ -201,7 +201,7 @@ fn findings(found: &Found) -> Vec<(bool, String)> {
     let bounds = if found.has_bounds {
         format!("{:.4} to {:.4} degrees", c.bounds.min_deg(), c.bounds.max_deg())
     } else {
-        "0 to 180 degrees: no bounds are known, --min-angle asks for some".to_owned()
+        "0 to 180 degrees: no bounds are known; --min-angle sets some".to_owned()
     };
     let mut findings = vec![
         finding(
@@ -223,13 +223,13 @@ fn findings(found: &Found) -> Vec<(bool, String)> {
     if found.exempt > 0 {
         let n = found.exempt;
         findings
-            .push((true, format!("{n} triangles exempt, the file says, in corners narrower than the bound")));
+            .push((true, format!("{n} triangles exempt, the file says, at corners narrower than the bound")));
     }
     if let Some(bound) = c.max_aspect_bound {
         findings.push(finding(
             c.stretched_triangles == 0,
-            format!("aspect ratios as these angles have them, {bound:.5} at most"),
-            format!("{} triangles with aspect ratios that their angles do not have", c.stretched_triangles),
+            format!("aspect ratios at most {bound:.5}, as the angles imply"),
+            format!("{} triangles with aspect ratios that the angle bounds rule out", c.stretched_triangles),
         ));
     }
     if let Some(below) = c.below_exact_bound.filter(|below| *below > c.out_of_bounds) {

@@ -20,7 +20,7 @@ const SHOWN: usize = 10;
 pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome {
     let mesher = mesher(args)?;
     if args.grid {
-        warn("--grid: the hexagons behind the mesh of a graph are not shown");
+        warn("--grid: the mesh of a PSLG has no hexagons to show");
     }
     let progress = Progress::new(args.quiet);
     let made = mesher.triangulate_pslg_watched(&input.pslg, &progress);
@@ -109,7 +109,7 @@ impl Finished<'_> {
             self.elsewhere(),
         );
         if !made.holds() {
-            warn(&format!("{}: the mesh does not keep what was asked for", self.file));
+            warn(&format!("{}: the mesh does not meet all requirements", self.file));
         }
         Ok(match (made.budget_spent, made.holds()) {
             (true, _) => Verdict::Spent,
@@ -126,7 +126,7 @@ impl Finished<'_> {
         // Writing to a string does not fail.
         let _ = writeln!(
             text,
-            "graph      {} points, {} segments, {} holes, {} regions",
+            "PSLG       {} points, {} segments, {} holes, {} regions",
             graph.points.len(),
             graph.segments.len(),
             graph.holes.len(),
@@ -147,12 +147,11 @@ impl Finished<'_> {
         // What the paper's templates do near segments is no failure of theirs.
         let name = if report.holds { "beyond" } else { "FAILED" };
         self.list(&mut text, name, &report.failed);
-        let spent =
-            if made.budget_spent { "budget     spent before the mesh was as good as can be\n" } else { "" };
+        let spent = if made.budget_spent { "budget     spent before optimisation ended\n" } else { "" };
         let _ = write!(
             text,
             "{}  {}\n{spent}seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
-            if report.holds { "certified" } else { "NOT SO   " },
+            if report.holds { "certified" } else { "NOT MET  " },
             promises(made),
             made.seconds.total,
             made.seconds.refine,
@@ -247,7 +246,7 @@ pub(crate) fn failure(file: &str, source: hexdel::Error, input: &Pslg) -> Failur
             let _ = write!(more, "\n{file}: {other}");
         }
         if others.len() >= TOLD {
-            let _ = write!(more, "\nand {} more of the kind", others.len() + 1 - TOLD);
+            let _ = write!(more, "\nand {} more of this kind", others.len() + 1 - TOLD);
         }
     }
     Failure::Mesh { file: file.to_owned(), source: Box::new(source), more }
@@ -290,7 +289,7 @@ fn promises(made: &PslgTriangulation) -> String {
         lost => format!("{lost} points lost"),
     };
     let segments = match made.segments.missing.len() {
-        0 => "every segment edges".to_owned(),
+        0 => "every segment a union of edges".to_owned(),
         lost => format!("{lost} parts of segments lost"),
     };
     let edges = made.size_ratio.map_or_else(String::new, |ratio| {

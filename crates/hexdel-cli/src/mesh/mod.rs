@@ -18,7 +18,7 @@ use std::time::Duration;
 
 pub(crate) use graph::{Finished, failure, place, warn_of_repairs, warn_of_warnings};
 
-/// Mesh points, or segments: angles of 43.89 to 90 degrees, at segments 30 to 90
+/// Mesh points or a PSLG: angles of 43.89 to 90 degrees, 30 to 90 at segments
 #[derive(clap::Args)]
 #[command(
     mut_arg("format", |arg| arg.hide(true)),
@@ -34,7 +34,7 @@ Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ro
 Example: hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
 )]
 pub(crate) struct Args {
-    /// File of points or of a graph
+    /// File of points or a PSLG
     #[arg(hide = true)]
     input: PathBuf,
     /// File to write; may be given several times
@@ -43,16 +43,16 @@ pub(crate) struct Args {
     /// File for the Voronoi dual: .vtu, or .v.node with .v.edge
     #[arg(long, value_name = "FILE")]
     dual: Option<PathBuf>,
-    /// hexagon, hull, box or inside [default: inside of segments, or hexagon]
+    /// hexagon, hull, box or inside [default: inside if segments, else hexagon]
     #[arg(long, value_enum, hide_possible_values = true)]
     domain: Option<DomainName>,
     /// templates, simple or compact (fewest triangles)
     #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
-    /// How hard compact tries: fast, standard or best
+    /// How hard compact optimises: fast, standard or best
     #[arg(long, value_enum, default_value_t, hide_possible_values = true)]
     effort: EffortName,
-    /// Time to optimise; spent, a conforming mesh is written, exit status 3
+    /// Time limit; when it is reached, the mesh is written with exit status 3
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     budget: Option<Duration>,
     /// Smallest angle allowed [default: the method's; 30 at segments]
@@ -61,42 +61,42 @@ pub(crate) struct Args {
     /// Largest angle allowed [default: the method's; 90 at segments]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     max_angle: Option<f64>,
-    /// Largest area of a triangle; of a graph, in the circle around it
+    /// Largest area of a triangle; for a PSLG, within the circle around it
     #[arg(short = 'a', long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
     max_area: Option<f64>,
-    /// Longest edge
+    /// Longest edge allowed
     #[arg(long = "size", alias = "max-edge", value_name = "H", value_parser = positive)]
     #[arg(allow_negative_numbers = true)]
     max_edge: Option<f64>,
-    /// The same by place: a raster (.asc), or points with sizes (x y size)
+    /// Longest edge by place: a raster (.asc) or points with sizes (x y size)
     #[arg(long, value_name = "FILE")]
     size_file: Option<PathBuf>,
-    /// Merge close points, split crossing segments [TOL: 1e-9 of the size]
+    /// Merge close points, divide crossing segments [TOL: 1e-9 of the size]
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
     repair: Option<Option<f64>>,
-    /// Where polygons overlap: later (its attribute, with a warning) or refuse
+    /// If polygons overlap: later (takes its attribute, and warns) or refuse
     #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true, default_value = "later")]
     #[arg(hide_default_value = true)]
     overlaps: OverlapsName,
-    /// How segments fit in: conform, or paper (keeps no bounds there)
+    /// Segment method: conform, or paper (keeps no bounds at segments)
     #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true)]
     pslg: Option<PslgName>,
-    /// Circumradius of the hexagon around points [default: the least]
+    /// Circumradius of the hexagon around points [default: the smallest]
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
     /// Do not merge hexagons again where all rules allow it
     #[arg(long, hide = true)]
     no_coarsening: bool,
-    /// Threads to use; the mesh does not depend on it [default: all]
+    /// Number of threads; does not change the mesh [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     #[command(flatten)]
     formats: Formats,
-    /// Write the figures of the mesh as JSON
+    /// Write statistics of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Show the hexagons in pictures; more of these: hexdel plot --help
+    /// Show the hexagons in pictures; see also hexdel plot --help
     #[arg(long)]
     grid: bool,
     #[command(flatten)]
@@ -190,7 +190,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
     let for_graphs = args.is_for_graphs(&input.pslg);
     if args.picture.colour.is_some_and(Colour::needs_hexagons) {
         let of = match args.method() {
-            _ if for_graphs => Some("the mesh of a graph"),
+            _ if for_graphs => Some("the mesh of a PSLG"),
             Method::Compact => Some("the compact method"),
             _ => None,
         };
@@ -359,7 +359,7 @@ fn limited(certificate: &hexdel::Certificate) -> String {
     match certificate.rounding_limited {
         0 => String::new(),
         n => format!(
-            "\n           but for {n} triangles whose coordinates do not resolve it, by up to {:.1e} degrees",
+            "\n           except {n} triangles, which rounding takes past a bound by up to {:.1e} degrees",
             certificate.worst_rounding_excess_deg
         ),
     }
@@ -370,6 +370,10 @@ fn warn_ignored(args: &Args, parts: &[(usize, &str)]) {
     let ignored: Vec<String> =
         parts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
     if !ignored.is_empty() {
-        warn(&format!("{}: ignored, as nothing bounds them: {}", args.input.display(), ignored.join(", ")));
+        warn(&format!(
+            "{}: ignored because no segments bound them: {}",
+            args.input.display(),
+            ignored.join(", ")
+        ));
     }
 }

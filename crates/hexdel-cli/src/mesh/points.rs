@@ -42,7 +42,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     if args.grid && overlay.is_none() {
         let input = args.input.display();
         warn(&format!(
-            "{input}: the mesh has grown without hexagons: --grid shows none; --method templates has some"
+            "{input}: the mesh was grown without hexagons: --grid shows none; use --method templates"
         ));
     }
     let groups = match args.picture.colour {
@@ -93,8 +93,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
         0 => String::new(),
         more => format!(" ({more} of them duplicates)"),
     };
-    let spent =
-        if made.budget_spent { "budget     spent before the mesh was as small as can be\n" } else { "" };
+    let spent = if made.budget_spent { "budget     spent before optimisation ended\n" } else { "" };
     // Writing to a string does not fail.
     let _ = write!(
         text,

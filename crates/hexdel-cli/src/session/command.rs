@@ -112,7 +112,7 @@ fn path(name: &str, rest: &str) -> Result<PathBuf, String> {
 }
 
 fn alone(name: &str, words: &[&str], command: Command) -> Result<Command, String> {
-    if words.is_empty() { Ok(command) } else { Err(format!("{name} takes nothing more")) }
+    if words.is_empty() { Ok(command) } else { Err(format!("{name} takes no arguments")) }
 }
 
 fn numbers<const N: usize>(name: &str, words: &[&str], usage: &str) -> Result<[f64; N], String> {
@@ -180,7 +180,7 @@ mod tests {
             ("remove", "expected remove"),
             ("domain 0 0", "expected domain X Y RADIUS"),
             ("mesh", "expected mesh FILE"),
-            ("undo 2", "undo takes nothing more"),
+            ("undo 2", "undo takes no arguments"),
             ("size", "expected size H"),
             ("size box 1 2 3", "expected size box X Y X Y H"),
             ("refine 0 0 1 1", "expected refine"),

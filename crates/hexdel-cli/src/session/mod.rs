@@ -15,25 +15,25 @@ use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Change a mesh by commands from standard input, answered with lines of JSON
+/// Change a mesh by commands on standard input; answers are lines of JSON
 #[derive(clap::Args)]
 #[command(
     override_usage = "hexdel session [OPTIONS] [FILE TO OPEN]",
     after_help = "\
     Commands:\n  \
-    open FILE, load FILE         begin with the points of a file, or its graph; a saved session\n  \
+    open FILE, load FILE         begin with the points or PSLG of a file; a saved session\n  \
     domain X Y RADIUS            begin with an empty hexagon\n  \
-    insert X Y [X Y ..]          put points in, all or none; first of all, the domain follows\n  \
-    insert-file FILE             .. the points of a file\n  \
-    remove N [N ..]              take points out, by the numbers insert gave\n  \
-    size H | none                the longest edges wanted, everywhere\n  \
-    size box X Y X Y H           .. in a box (also: polygon H X Y .., point X Y H, file FILE)\n  \
-    size gradation G             growth per distance of all that follows\n  \
+    insert X Y [X Y ..]          insert points, all or none; as first command, the domain grows\n  \
+    insert-file FILE             insert the points of a file\n  \
+    remove N [N ..]              remove points by the numbers that insert gave\n  \
+    size H | none                set the longest edge wanted, everywhere\n  \
+    size box X Y X Y H           the same in a box (also: polygon H X Y .., point X Y H, file FILE)\n  \
+    size gradation G             growth per distance of the sizes that follow\n  \
     refine X Y X Y K             halve the edges in a box K times\n  \
-    points, counts, certify      what there is\n  \
-    mesh FILE, save FILE         write the mesh; the session, to be loaded\n  \
-    grow, undo, quit             double the domain; take the last change back; end\n\n\
-    Answers have \"ok\", and what changed or the \"error\", which changes nothing; exits with 2 then.\n\
+    points, counts, certify      list the points; count; certify the mesh\n  \
+    mesh FILE, save FILE         write the mesh; the session, for load\n  \
+    grow, undo, quit             double the domain; undo the last change; end\n\n\
+    Answers have \"ok\" and what changed, or an \"error\"; after an error the exit status is 2.\n\
     Example: printf 'insert .1 .2 .3 .1\\ninsert 2 1\\nmesh m.vtu\\n' | hexdel session"
 )]
 pub(crate) struct Args {
@@ -43,19 +43,19 @@ pub(crate) struct Args {
     /// Columns of x and y in tables that are read
     #[arg(long, value_name = "X,Y")]
     columns: Option<Columns>,
-    /// Answer with counts of what changed in the place of lists
+    /// Answer with counts of what changed instead of lists
     #[arg(long)]
     brief: bool,
     /// compact, or templates: many triangles [default: compact]
     #[arg(long, value_enum, default_value_t, hide_possible_values = true, hide_default_value = true)]
     method: SessionMethod,
-    /// How hard compact tries: fast, standard or best [default: standard]
+    /// How hard compact optimises: fast, standard or best [default: standard]
     #[arg(long, value_enum, hide_possible_values = true)]
     effort: Option<EffortName>,
-    /// Time to optimise in each call that meshes anew [default: all it takes]
+    /// Time limit of each call that meshes anew [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     budget: Option<Duration>,
-    /// Threads to use [default: all]
+    /// Number of threads [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 }
@@ -287,7 +287,7 @@ fn unused(graph: &Pslg) -> Vec<String> {
     if parts.is_empty() {
         Vec::new()
     } else {
-        vec![format!("points alone are used, not {}", parts.join(", "))]
+        vec![format!("only points are used, not {}", parts.join(", "))]
     }
 }
 

@@ -22,18 +22,18 @@ pub(crate) use numbered::Numbered;
 #[command(
     override_usage = "hexdel triangle [-SWITCHES] FILE",
     after_help = "\
-FILE is a .node or .poly. Written are FILE.1.node, .1.ele and, of a .poly, .1.poly. Input points
-are first and in order, numbers start as in the input. Crossing segments are divided.
-  -p        FILE is a .poly though its name does not say so
-  -q30      no angle below 30 degrees, which is so at segments anyway
-  -a0.1     no triangle larger than 0.1; -a alone takes the areas of regions in the .poly
+FILE is a .node or .poly. Output: FILE.1.node, FILE.1.ele and, for a .poly, FILE.1.poly. Input
+points come first and in order; numbers start as in the input. Crossing segments are divided.
+  -p        FILE is a .poly even if its name does not say so
+  -q30      no angle below 30 degrees, the default at segments
+  -a0.1     no triangle larger than 0.1; -a alone applies the areas of regions in the .poly
   -A        triangles carry the attributes of their regions
-  -c        mesh the convex hull of the graph
+  -c        mesh the convex hull
   -e -n -v  write edges, neighbours, the Voronoi dual;  -g  write an .off
-  -o2       triangles with nodes on the middles of their edges
-  -B -P -j  no markers, no .poly, no points that are no vertices;  -z  numbers from 0
-  -Q        say nothing but warnings;  -D -C -i -F -l -s -X -V  change nothing
-Not possible here: -Y -S -r -u -I -N -E. docs/triangle-users.md says why, and all else.
+  -o2       triangles with nodes at the midpoints of their edges
+  -B -P -j  write no markers, no .poly, no unused points;  -z  number from 0
+  -Q        print nothing but warnings;  -D -C -i -F -l -s -X -V  have no effect
+Not supported: -Y -S -r -u -I -N -E. docs/triangle-users.md has the details.
 
 Examples:
   hexdel triangle -pq30a0.1 letters.poly

@@ -46,14 +46,14 @@ const WITHOUT_EFFECT: &str = "DCiFlsXV";
 
 /// What cannot be.
 const REFUSED: [(char, &str); 8] = [
-    ('Y', "segments must be divided for the angles to keep their bounds"),
+    ('Y', "segments must be divided to keep the angle bounds"),
     ('S', "the number of vertices follows from the angles"),
-    ('r', "meshes are not refined: mesh the points or the graph anew"),
-    ('u', "there is no test of triangles to compile in"),
+    ('r', "meshes are not refined: mesh the points or the PSLG anew"),
+    ('u', "there is no user-defined test of triangles"),
     ('I', "the input is not replaced"),
     ('N', "the files .node and .ele are written as a pair"),
     ('E', "the files .node and .ele are written as a pair"),
-    ('o', "there are elements of first and of second order, -o2, only"),
+    ('o', "there are only elements of first and second order, -o2"),
 ];
 
 impl Switches {

@@ -90,9 +90,9 @@ fn what_is_lost_is_said_and_what_cannot_be_is_refused() {
     let run = bench.run("convert m.json m.off");
     assert_eq!((run.code, run.err.as_str()), (0, "warning: m.off: the format has no regions\n"));
     bench.run("convert m.json m.mesh").refused("region of triangle 0 is 0.5");
-    bench.run("convert m.json m.csv").refused("m.json: holds a mesh, which csv does not");
+    bench.run("convert m.json m.csv").refused("m.json: contains a mesh, which csv cannot store");
     bench.file("p.csv", "1,2\n3,4\n");
-    bench.run("convert p.csv p.vtu").refused("p.csv: holds points, which vtu does not");
+    bench.run("convert p.csv p.vtu").refused("p.csv: contains points, which vtu cannot store");
     bench.run("convert p.csv p.wkt").refused("is read, not written");
     bench.run("convert p.csv p.stl").refused("unknown extension");
     bench.run("convert p.csv p.csv").refused("belongs to the input");

@@ -171,15 +171,15 @@ fn options_that_there_are_not_lead_to_those_that_mean_the_same() {
     let bench = Bench::new();
     bench.file("p.txt", "0 0\n1 0\n");
     for (arguments, tip) in [
-        ("mesh p.txt -o m.ele --area 1", "the same here is '--max-area A'"),
-        ("mesh p.txt --to m.ele", "the same here is '-o FILE'"),
+        ("mesh p.txt -o m.ele --area 1", "use '--max-area A'"),
+        ("mesh p.txt --to m.ele", "use '-o FILE'"),
         ("convert p.txt --to csv", "the output is the second argument: 'hexdel convert INPUT OUTPUT'"),
         ("convert p.txt --output csv", "the output is the second argument: 'hexdel convert INPUT OUTPUT'"),
         ("mesh --input p.txt -o m.ele", "the input is the first argument: 'hexdel mesh INPUT'"),
         ("check --mesh m.ele", "the mesh is the first argument: 'hexdel check MESH'"),
-        ("mesh p.txt -o m.ele --angle 20", "the same here is '--min-angle DEG'"),
-        ("mesh p.txt -o m.ele --tol 20", "the same here is '--repair=TOL'"),
-        ("mesh p.txt -o m.ele --hull", "the same here is '--domain hexagon, hull, box or inside'"),
+        ("mesh p.txt -o m.ele --angle 20", "use '--min-angle DEG'"),
+        ("mesh p.txt -o m.ele --tol 20", "use '--repair=TOL'"),
+        ("mesh p.txt -o m.ele --hull", "use '--domain hexagon, hull, box or inside'"),
         ("mesh p.txt -o m.ele --min-angel 20", "a similar argument exists: '--min-angle'"),
     ] {
         let run = bench.run(arguments);

@@ -74,9 +74,7 @@ fn regions_are_drawn_of_graphs_and_of_files() {
     }
     // What the file tells, and segments.
     assert!(String::from_utf8(bench.read("m.svg")).unwrap().contains("id=\"segments\""));
-    bench
-        .run(&format!("mesh {graph} -o p.svg --colour level"))
-        .refused("the mesh of a graph tells no levels");
+    bench.run(&format!("mesh {graph} -o p.svg --colour level")).refused("the mesh of a PSLG has no levels");
 }
 
 #[test]
@@ -94,8 +92,8 @@ fn what_cannot_be_drawn_is_refused() {
         ("plot none.ele -o p.svg", "none.node: no such file"),
         ("plot bad.ele -o p.svg", "bad.ele:2"),
         ("plot m.ele -o p.svg --input none.node", "none.node: no such file"),
-        ("plot m.ele -o p.svg --colour level", "m.ele: a mesh file tells no levels"),
-        ("plot m.ele -o p.png --colour class", "m.ele: a mesh file tells no levels"),
+        ("plot m.ele -o p.svg --colour level", "m.ele: a mesh file has no levels"),
+        ("plot m.ele -o p.png --colour class", "m.ele: a mesh file has no levels"),
         ("plot m.ele -o p.png --colour region", "the mesh has no regions"),
         ("plot m.ele -o p.svg --colour mood", "possible values"),
         ("plot m.ele -o p.svg --zoom 1,2,3", "expected four numbers"),
@@ -108,7 +106,7 @@ fn what_cannot_be_drawn_is_refused() {
         ("plot m.ele -o p.png --size 1000000", "--size"),
         ("plot m.ele -o p.svg --min-angle 61", "no triangle has all angles"),
         ("plot m.ele -o p.svg --min-angle -1", "no triangle has all angles"),
-        ("mesh INPUT -o p.svg --method compact --colour level", "the compact method tells no levels"),
+        ("mesh INPUT -o p.svg --method compact --colour level", "the compact method has no levels"),
         ("mesh INPUT -o p.svg --method simple --colour region", "the mesh has no regions"),
         ("mesh INPUT -o p.svg -o p.ele --method simple --zoom 9,9,10,10", "lies beside the mesh"),
     ] {

@@ -103,8 +103,8 @@ fn what_is_not_used_of_a_file_is_said() {
         ["s.poly:11: hole 0 at (7, 7) has no effect: it lies outside the domain"]
     );
     assert_eq!(told(0, "repairs"), ["segments 0 and 3 overlapped at (1, 0)"]);
-    assert_eq!(told(1, "warnings"), ["points alone are used, not 1 holes"]);
-    assert_eq!(told(3, "warnings"), ["points alone are used, not 4 segments, 1 holes"]);
+    assert_eq!(told(1, "warnings"), ["only points are used, not 1 holes"]);
+    assert_eq!(told(3, "warnings"), ["only points are used, not 4 segments, 1 holes"]);
 }
 
 #[test]
