@@ -31,7 +31,7 @@
 //! where the distance outside falls; where there are segments, a round that
 //! leaves more triangles outside is taken back), so work can be stopped at any
 //! time.
-//! `docs/compact.md` says what was tried and what it cost.
+//! `docs/compact.md` describes the method, `docs/notes.md` what was tried.
 
 /// The example of the README, so that it stays true.
 #[cfg(doctest)]

@@ -59,10 +59,10 @@ impl Method {
     }
 }
 
-/// Meshes points, or a graph of points and segments, with options.
+/// Meshes points, or a PSLG, with options.
 ///
-/// Options say what they are for where it is not both: one that the call has no
-/// use for is [`Error::NotForPoints`] or [`Error::NotForGraphs`].
+/// Options apply to both unless noted. An option that does not apply to the call is
+/// [`Error::NotForPoints`] or [`Error::NotForGraphs`].
 ///
 /// ```
 /// use hexdel::{DVec2, Mesher, Method};

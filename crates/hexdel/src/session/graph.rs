@@ -318,7 +318,7 @@ impl Session {
             (true, _) => Domain::Inside,
             (_, true) => Domain::Hull,
             _ => {
-                let option = "meshing a graph anew in a box or hexagon around it";
+                let option = "meshing a PSLG anew in a box or hexagon around it";
                 return Err(SessionError::NotForSessions { option });
             }
         };
