@@ -71,7 +71,7 @@ fn rates(out: &mut String, rows: &[Row], threads: usize) {
 
 fn phases(out: &mut String, rows: &[Row]) {
     *out += "\nProcessor seconds per phase on one thread, and the work of the rules engine: a tile is 64 \
-             hexagons, asked all at once.\n\n\
+             hexagons, whose rules are evaluated (asked) together.\n\n\
              | input | points | refine | extract | peak MB | tiles | asked per tile | ns per tile asked |\n\
              |---|---:|---:|---:|---:|---:|---:|---:|\n";
     for Row { input, points, one, .. } in rows {
