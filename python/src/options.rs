@@ -47,8 +47,9 @@ pub(crate) struct Options<'py> {
 /// A part of a size.
 #[derive(FromPyObject)]
 enum Part<'py> {
-    Polygon(PyReadonlyArray2<'py, f64>, f64),
     Points(PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, f64>),
+    /// Behind points: older versions of numpy turn an array of one number into that number.
+    Polygon(PyReadonlyArray2<'py, f64>, f64),
     /// Values by rows from the south, centre of the cell in the south-west, side of a cell.
     Raster(PyReadonlyArray2<'py, f64>, f64, f64, f64),
     #[pyo3(transparent)]
