@@ -36,11 +36,7 @@ enum Task {
     },
     /// Build the Python package and test it, with every package that it hands meshes
     /// to, in virtual environments below target/; nothing where there is no Python
-    Python {
-        /// Only `pip install ./python` beside numpy, and the tests that can be run there
-        #[arg(long)]
-        core: bool,
-    },
+    Python,
     /// Build the wheel of the Python package and its source distribution into target/wheels
     Wheel,
     /// Prove by enumeration that every triangle keeps 43.89 to 90 degrees, and
@@ -65,8 +61,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(),
         Task::Bench(args) => bench::run(&args),
         Task::Regen { check } => regen::run(check),
-        Task::Python { core: false } => python::test(),
-        Task::Python { core: true } => python::test_core(),
+        Task::Python => python::test(),
         Task::Wheel => python::wheel(),
         Task::Prove { without, reduced } => prove::run(&without, reduced),
     };

@@ -2,11 +2,10 @@
 //! users get it.
 //!
 //! Everything is below `target/`: wheels, and virtual environments that are kept from one
-//! run to the next. One environment has every package that meshes are handed on to;
-//! packages that do not install are named, and their tests skipped. In a second one, of
-//! the oldest other Python there is, numpy is alone, and hexdel is built from its sdist.
-//! `cargo xtask python --core`, a step of `cargo xtask ci`, needs neither: `pip install ./python`
-//! as the README says, beside numpy alone, and every test that can be run there.
+//! run to the next. One environment, of the newest Python, has every package that meshes are
+//! handed on to; packages that do not install are named, and their tests skipped. In a second
+//! one, of the oldest Python, numpy is alone. The wheel and the source distribution are
+//! installed and tested in both.
 
 use crate::Outcome;
 use crate::tidy;
@@ -61,48 +60,31 @@ pub(crate) fn wheel() -> Outcome {
     })
 }
 
-/// Builds the package and tests it in two environments; says so and does nothing where
-/// there is no Python.
+/// Lints and builds the package, and tests it in two environments; says so and does nothing
+/// where there is no Python.
 pub(crate) fn test() -> Outcome {
     let mut pythons = interpreters();
     let Some(newest) = pythons.pop() else {
         eprintln!("python: skipped, there is no Python of 3.10 or later");
         return Ok(());
     };
-    let package = Package::new();
-    let main = package.environment("main", &newest)?;
-    let [wheel, sdist] = build(&package, &main)?;
-    main.install("the clients", CLIENTS);
-    main.pip(&["--force-reinstall", "--no-deps", &wheel.display().to_string()])?;
-    main.test(&package, "")?;
-    main.check_types(&package)?;
     // The oldest version is where what is too new shows.
-    let oldest = pythons.into_iter().next().unwrap_or(newest);
-    let other = package.environment("other", &oldest)?;
-    other.pip(TOOLS)?;
-    for (what, file) in [("the wheel", wheel), ("the sdist", other.unpack(&sdist)?)] {
-        eprintln!("python: {what} in an environment of {}", oldest.display());
-        other.pip(&["--force-reinstall", "--no-deps", &file.display().to_string()])?;
-        other.run("pytest", &["-q", "-p", "no:cacheprovider", &package.tests("test_calls.py")])?;
-    }
-    Ok(())
-}
-
-/// Lints the compiled half, installs the package as the README says, and runs the tests that need numpy alone; says
-/// so and does nothing where there is no Python.
-pub(crate) fn test_core() -> Outcome {
-    let Some(newest) = interpreters().pop() else {
-        eprintln!("python: skipped, there is no Python of 3.10 or later");
-        return Ok(());
-    };
+    let oldest = pythons.into_iter().next().unwrap_or_else(|| newest.clone());
     let package = Package::new();
     package.lint()?;
-    let core = package.environment("core", &newest)?;
-    let begun = Instant::now();
-    core.pip(TOOLS)?;
-    core.pip(&["--force-reinstall", "--no-deps", &package.source.display().to_string()])?;
-    eprintln!("python: pip install ./python in {:.0} s", begun.elapsed().as_secs_f64());
-    core.test(&package, NUMPY_ALONE)
+    let main = package.environment("main", &newest)?;
+    let other = package.environment("other", &oldest)?;
+    let [wheel, sdist] = build(&package, &main)?;
+    let sdist = package.unpack(&main, &sdist)?;
+    main.install("the clients", CLIENTS);
+    for (environment, docstrings) in [(&main, ""), (&other, NUMPY_ALONE)] {
+        environment.pip(TOOLS)?;
+        environment.replace("the sdist", &sdist)?;
+        environment.run("pytest", &["-q", "-p", "no:cacheprovider", &package.tests("test_calls.py")])?;
+        environment.replace("the wheel", &wheel)?;
+        environment.test(&package, docstrings)?;
+    }
+    main.check_types(&package)
 }
 
 /// Where things are.
@@ -124,6 +106,18 @@ impl Package {
         let mut clippy = Command::new(cargo);
         clippy.args(["clippy", "--quiet", "--release", "--locked", "--target-dir"]).arg(&self.target);
         run(clippy.args(["--", "-D", "warnings"]).current_dir(&self.source))
+    }
+
+    /// The folder in a source distribution, always in the same place, so that what cargo
+    /// makes of it is found again.
+    fn unpack(&self, tools: &Environment, sdist: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
+        let folder = self.target.join("python").join("sdist");
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder)?;
+        let [from, to] = [sdist, &folder].map(|path| path.display().to_string());
+        tools.run("python", &["-m", "tarfile", "-e", &from, &to])?;
+        let mut entries = fs::read_dir(&folder)?;
+        entries.next().map_or_else(|| Err("the sdist is empty".into()), |entry| Ok(entry?.path()))
     }
 
     fn tests(&self, file: &str) -> String {
@@ -225,21 +219,16 @@ impl Environment {
         all
     }
 
-    /// The folder in a source distribution, always in the same place, so that what cargo
-    /// makes of it is found again.
-    fn unpack(&self, sdist: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
-        let folder = self.folder.join("sdist");
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder)?;
-        let [from, to] = [sdist, &folder].map(|path| path.display().to_string());
-        self.run("python", &["-m", "tarfile", "-e", &from, &to])?;
-        let mut entries = fs::read_dir(&folder)?;
-        entries.next().map_or_else(|| Err("the sdist is empty".into()), |entry| Ok(entry?.path()))
+    /// Installs hexdel from a file or folder, whether or not it is there.
+    fn replace(&self, what: &str, with: &Path) -> Outcome {
+        let begun = Instant::now();
+        self.pip(&["--force-reinstall", "--no-deps", &with.display().to_string()])?;
+        eprintln!("python: {what} in {:.0} s, in {}", begun.elapsed().as_secs_f64(), self.folder.display());
+        Ok(())
     }
 
     /// All tests, and the examples in the docstrings chosen, of what is installed.
     fn test(&self, package: &Package, docstrings: &str) -> Outcome {
-        self.pip(TOOLS)?;
         let begun = Instant::now();
         let config = package.source.join("pyproject.toml").display().to_string();
         let tests = package.tests("");
