@@ -153,8 +153,10 @@ const FEW: usize = 12;
 /// are rescued at all took a million in the median, five at most.
 const RESCUE_VISITS: u64 = 4_000_000;
 
-/// The same for all of them together.
+/// The same for all of them together, and as many more for each triangle of the mesh: a
+/// small part of what removals visit.
 const ALL_VISITS: u64 = 4 * RESCUE_VISITS;
+const VISITS_PER_TRIANGLE: u64 = 50;
 
 /// Rounds of search in a row that settle nothing in a mesh with segments, after which
 /// no other has.
@@ -333,8 +335,8 @@ impl<'a> Run<'a> {
             }
             least = bad.len();
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
-            let shared = RESCUE_VISITS.min(ALL_VISITS / bad.len() as u64);
-            let allowance = if constrained { shared } else { u64::MAX };
+            let all = ALL_VISITS + VISITS_PER_TRIANGLE * self.soup.tris.len() as u64;
+            let allowance = RESCUE_VISITS.min(all / bad.len() as u64);
             self.round_of(&cuts, |work| rescue(work, allowance))?;
         }
         Ok(())

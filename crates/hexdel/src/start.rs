@@ -16,7 +16,13 @@ use std::time::{Duration, Instant};
 /// The largest lower bound, degrees, at which growth ends by itself; for larger ones the rest is for the optimiser.
 const GROWN_DEG: f64 = 43.0;
 
-/// Points from which on a mesh grows whatever its bounds. The optimiser needs room for what is beyond [`GROWN_DEG`].
+/// The largest lower bound, degrees, at which it ends with few vertices however few points there are.
+const EASY_DEG: f64 = 42.5;
+
+/// Of so many triangles of a mesh that is to be repaired, one may be out of bounds after growth.
+const ENDED: usize = 1000;
+
+/// Points from which on a mesh grows whatever its bounds. The optimiser needs room for what is beyond [`EASY_DEG`].
 const MANY: usize = 5000;
 
 /// The mesh that a mesh was made of.
@@ -201,6 +207,8 @@ impl Mesher {
         let least = if asked <= GROWN_DEG { asked } else { self.before_repair() };
         let options = hexdel_grow::Options::new(least).with_deadline(time.deadline());
         match grow(&input, &options, monitor) {
+            // Growth that spent its limit leaves much, and made more than removals undo.
+            Ok(made) if made.left.len() > made.mesh.triangles.len() / ENDED => Ok(None),
             Ok(made) => Ok(begun(made, sites.len(), patch, began.elapsed())),
             Err(GrowError::Cancelled(c)) => Err(c.into()),
             Err(_) => Ok(None),
@@ -210,12 +218,12 @@ impl Mesher {
     /// The bound of a mesh that is to be repaired to a larger one.
     fn before_repair(&self) -> f64 {
         // At the least effort few vertices are removed: the less repair, the better.
-        if self.effort <= Effort::Fast { GROWN_DEG } else { GROWN_DEG - 0.5 }
+        if self.effort <= Effort::Fast { GROWN_DEG } else { EASY_DEG }
     }
 
     /// Whether a mesh of so many points within bounds is to grow.
     pub(crate) fn is_for_growth(&self, points: usize, bounds: AngleBounds) -> bool {
-        let easy = bounds.min_deg() <= GROWN_DEG;
+        let easy = bounds.min_deg() <= EASY_DEG;
         self.size.is_none() && !self.without_coarsening && points > 1 && (easy || points >= MANY)
     }
 }

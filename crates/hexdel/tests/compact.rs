@@ -108,6 +108,17 @@ fn other_bounds() {
 }
 
 #[test]
+fn growth_that_spends_its_limit_is_not_repaired() {
+    let points = generate(Kind::Uniform, 60, 5);
+    for (min, start) in [(40.0, Start::Grown), (42.5, Start::Coarse), (43.0, Start::Coarse)] {
+        let bounds = AngleBounds::new(min, 90.0).unwrap();
+        let made = compact().bounds(bounds).triangulate(&points).unwrap();
+        hold(&made, &points, bounds);
+        assert_eq!(made.start, start, "{min}");
+    }
+}
+
+#[test]
 fn tight_bounds_are_reached_or_the_best_mesh_is_handed_over() {
     let points = generate(Kind::Uniform, 12, 1);
     for (min, max, possible) in [(44.5, 89.0, true), (51.3, 72.1, false)] {
