@@ -99,7 +99,7 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
         if work.patch.visits() >= work.allowance {
             return;
         }
-        if !work.is_bad(t) {
+        if !work.is_bad(t) || work.hopeful_only && work.is_hopeless(t) {
             continue;
         }
         match step {

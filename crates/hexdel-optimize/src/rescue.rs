@@ -17,20 +17,21 @@ const TRIES: [(usize, usize); 7] = [(1, 1), (2, 1), (3, 1), (2, 2), (4, 1), (3, 
 /// The steps of repair after refinement.
 const STEPS: [usize; 9] = [0, 1, 3, 4, 5, 6, 7, 10, 15];
 
-/// Tries to settle each bad triangle of the mesh; what does not lower their
-/// number is undone. Projection sweeps visit about `allowance` triangles for each
-/// of them.
+/// Tries to settle each bad triangle of the mesh for which there is hope; what does not
+/// lower their number is undone. Projection sweeps visit about `allowance` triangles for
+/// each of them.
 pub(crate) fn rescue(work: &mut Work, allowance: u64) {
-    let mut left = work.bad();
+    work.hopeful_only = true;
+    let mut left = hopeful(work);
     let many = left.len();
-    let end = work.patch.visits().saturating_add(allowance.saturating_mul(many as u64));
+    work.allowance = work.patch.visits().saturating_add(allowance.saturating_mul(many as u64));
     for (rings, times) in TRIES {
         for t in left {
-            if work.is_bad(t) && work.patch.visits() < end {
-                refine_and_repair(work, t, (rings, times), end);
+            if work.is_bad(t) && work.patch.visits() < work.allowance {
+                refine_and_repair(work, t, (rings, times));
             }
         }
-        left = work.bad();
+        left = hopeful(work);
         if left.is_empty() {
             break;
         }
@@ -42,18 +43,22 @@ pub(crate) fn rescue(work: &mut Work, allowance: u64) {
     }
 }
 
-/// Refines around `t`, repairs until sweeps have visited `end` triangles in all,
-/// and keeps that if fewer are bad.
-fn refine_and_repair(work: &mut Work, t: u32, (rings, times): (usize, usize), end: u64) {
+/// Bad triangles for which there is hope.
+fn hopeful(work: &Work) -> Vec<u32> {
+    let mut bad = work.bad();
+    bad.retain(|&t| !work.is_hopeless(t));
+    bad
+}
+
+/// Refines around `t`, repairs within the allowance, and keeps that if fewer are bad.
+fn refine_and_repair(work: &mut Work, t: u32, (rings, times): (usize, usize)) {
     let before = (work.mesh.clone(), work.failed.clone(), work.bad().len());
     let corners = work.mesh.tri[t as usize].v;
     for _ in 0..times {
         split_around(work, &corners, rings);
     }
     for s in STEPS {
-        if work.patch.visits() < end {
-            repair(work, step(s));
-        }
+        repair(work, step(s));
     }
     if work.bad().len() >= before.2 {
         work.mesh = before.0;

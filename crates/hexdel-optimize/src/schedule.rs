@@ -316,7 +316,10 @@ impl<'a> Run<'a> {
             least = bad.len();
             let rings = SPOT_RINGS[i.min(SPOT_RINGS.len() - 1)];
             let cuts = spots(&self.soup, &bad, rings, self.stats.rounds);
-            self.round_of(&cuts, |work| search(work, steps))?;
+            self.round_of(&cuts, |work| {
+                work.hopeful_only = i >= HOPEFUL_ROUNDS;
+                search(work, steps);
+            })?;
         }
         self.rescue()
     }

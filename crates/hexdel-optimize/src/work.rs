@@ -38,6 +38,8 @@ pub(crate) struct Work<'a> {
     pub(crate) scratch: Scratch,
     /// Repair stops once sweeps have gone over so many triangles.
     pub(crate) allowance: u64,
+    /// Whether repair leaves triangles alone for which there is no hope.
+    pub(crate) hopeful_only: bool,
     /// Vertices handed to the patch.
     seeds: Vec<u32>,
 }
@@ -71,6 +73,7 @@ impl<'a> Work<'a> {
             stats: Stats::default(),
             scratch: Scratch::default(),
             allowance: u64::MAX,
+            hopeful_only: false,
             seeds: Vec::new(),
         }
     }
@@ -214,6 +217,11 @@ impl<'a> Work<'a> {
     /// Whether triangle `t` is alive and outside the bounds.
     pub(crate) fn is_bad(&self, t: u32) -> bool {
         self.mesh.tri[t as usize].alive() && !self.is_good(t)
+    }
+
+    /// Whether no mesh is expected to bring `t` within the bounds.
+    pub(crate) fn is_hopeless(&self, t: u32) -> bool {
+        self.rules.is_hopeless(self.mesh.tri[t as usize].v.map(|v| self.mesh.pos[v as usize]))
     }
 
     fn is_good(&self, t: u32) -> bool {
