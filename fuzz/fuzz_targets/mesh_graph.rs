@@ -18,6 +18,7 @@ fuzz_target!(|bytes: &[u8]| {
             | Error::Points(_)
             | Error::Pslg(
                 PslgError::NothingEnclosed { .. }
+                | PslgError::FlatHull { .. }
                 | PslgError::TooClose { .. }
                 | PslgError::TooMany { .. }
                 | PslgError::NotRecovered { .. },

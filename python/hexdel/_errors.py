@@ -146,6 +146,7 @@ _HINTS: dict[str, str] = {
     "overlaps": "pass overlaps='later' to take the later polygon there",
     "no_grading": "pass min_angle of at most 43.89 and max_angle of at least 90",
     "nothing_enclosed": "close the outline, or pass domain='hull' or domain='box'",
+    "flat_hull": "pass domain='hexagon' or domain='box' to mesh the area around points in a line",
     "segment_end": "segments hold indices of points, from 0",
     "bounds": "pass min_angle of at most 43.89 and max_angle of at least 90, or method='compact'",
     "unreached": "the best mesh is the error's attribute mesh; widen the bounds, or drop the budget",

@@ -186,6 +186,13 @@ fn fault_of_graph(error: &PslgError) -> Fault {
         PslgError::TooMany { at, .. } => {
             Fault { location: *at, least: error.repair_within(), ..Fault::new("too_many") }
         }
+        PslgError::FlatHull { farthest, ends, .. } => {
+            let points = [*farthest, ends[0], ends[1]].into_iter().filter_map(|item| match item {
+                Feature::Point(i) => Some(i),
+                _ => None,
+            });
+            Fault::new("flat_hull").points(points.collect::<Vec<_>>())
+        }
         PslgError::NothingEnclosed { .. } => Fault::new("nothing_enclosed"),
         PslgError::BoundsBeyondMethod { .. } => Fault::new("bounds"),
         PslgError::InvalidArea { .. } => Fault::new("area"),

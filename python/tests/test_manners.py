@@ -157,6 +157,7 @@ def test_exceptions_say_the_way_out():
         (lambda: hexdel.mesh(np.zeros((2, 5))), "shape", "points.T"),
         (lambda: hexdel.mesh_pslg([(0, 0), (1, 0)], [(0, 2)]), "segment_end", "count from 0"),
         (lambda: hexdel.mesh_pslg([(0, 0), (1, 0)], [(0, 1)]), "nothing_enclosed", "domain='hull'"),
+        (lambda: hexdel.mesh_pslg([(0, 0), (1, 1), (3, 3)], [(0, 1)], domain="hull"), "flat_hull", "domain='box'"),
         (lambda: hexdel.mesh_pslg([(0, 0), (1, 0)], [(0, 1)], markers=[1, 2]), "length", "one entry for each"),
         (lambda: hexdel.mesh_pslg([(0, 0), (1, 0)], [(0, 0.5)]), "dtype", "for an index"),
     ]:

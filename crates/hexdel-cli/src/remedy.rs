@@ -105,7 +105,10 @@ impl Remedies<'_> {
                 let later = self.option("overlaps", "--overlaps later")?;
                 Some(format!("{later} takes the attribute of the later polygon"))
             }
-            E::Pslg(PslgError::TooClose { items: [Feature::Hull, Feature::Hull], .. }) => {
+            E::Pslg(
+                PslgError::FlatHull { .. }
+                | PslgError::TooClose { items: [Feature::Hull, Feature::Hull], .. },
+            ) => {
                 let domain = self.option("domain", "--domain hexagon or box")?;
                 Some(format!("{domain} meshes the area around points that are nearly in line"))
             }
@@ -218,6 +221,11 @@ mod tests {
             E::DomainTooLarge { radius: 1.0, most: 0.5 },
             E::Segments(ValidateError::Crossing { segments: [0, 1], at: a }),
             E::Pslg(PslgError::NothingEnclosed { loose, count: 0 }),
+            E::Pslg(PslgError::FlatHull {
+                farthest: Feature::Point(1),
+                ends: [0, 2].map(Feature::Point),
+                distance: 1e-13,
+            }),
             E::Overlap { polygons: [0, 1], attributes: [1.0, 2.0], at: a, area: 1.0 },
             E::NotForGraphs { option: "a radius of the domain" },
             E::NotForGraphs { option: "the simple method" },

@@ -139,6 +139,17 @@ pub enum PslgError {
         /// How many there are.
         count: usize,
     },
+    /// The convex hull was asked for, and all points are in a line, or so nearly that there is nothing in
+    /// it to mesh. Around the points there is.
+    #[error("the convex hull is too flat to mesh: {}", flat(*farthest, *ends, *distance))]
+    FlatHull {
+        /// The point farthest from the line.
+        farthest: Feature,
+        /// The points at the ends of the line.
+        ends: [Feature; 2],
+        /// How far from the line that point is; 0 if all of them are on it.
+        distance: f64,
+    },
     /// The graph has polygons, of which meshes know nothing.
     #[error("polygons must be converted to holes and regions first, by `Validated::seeded`")]
     NotSeeded,
@@ -243,6 +254,13 @@ pub(crate) fn between(items: [Feature; 2], pslg: &Pslg) -> Option<f64> {
 
 fn apart(distance: Option<f64>) -> String {
     distance.map_or_else(String::new, |distance| format!("they are {distance:e} apart, and "))
+}
+
+fn flat(farthest: Feature, [a, b]: [Feature; 2], distance: f64) -> String {
+    match distance {
+        0.0 => format!("all points are on the line through {a} and {b}"),
+        _ => format!("{farthest} is farthest from the line through {a} and {b}, {distance:e} away"),
+    }
 }
 
 fn narrows(near: Option<&Near>) -> String {

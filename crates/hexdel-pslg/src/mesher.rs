@@ -9,7 +9,7 @@ use crate::fans::{Fan, Scene, with_fans};
 use crate::fit::judge::{Judge, Wedges};
 use crate::fit::{count_rings, optimise};
 use crate::grown::{Grown, grown};
-use crate::hull::with_hull;
+use crate::hull::{refuse_flat, with_hull};
 use crate::limits::Limits;
 use crate::net::Net;
 use crate::options::{Deadline, Extent, Options, SegmentMethod, Timed};
@@ -126,6 +126,9 @@ fn run(
     let (asked, kept) = (options.far, AngleBounds::EXTENDED);
     if asked.min_deg() > kept.min_deg() || asked.max_deg() < kept.max_deg() {
         return Err(PslgError::BoundsBeyondMethod { asked, kept });
+    }
+    if options.extent == Extent::Hull {
+        refuse_flat(input)?;
     }
     if options.method == SegmentMethod::Paper {
         return paper::mesh(input, options, size, monitor);

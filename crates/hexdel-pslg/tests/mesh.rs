@@ -4,7 +4,9 @@ mod support;
 
 use hexdel_geom::certificate::{Promises, check_promises, features};
 use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Region, Unwatched, check_segments};
-use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, Reason, mesh, repair, validate};
+use hexdel_pslg::{
+    Extent, Feature, Options, PslgError, PslgMesh, Reason, SegmentMethod, mesh, repair, validate,
+};
 use std::sync::atomic::{AtomicBool, Ordering};
 use support::{append, chain};
 
@@ -183,6 +185,71 @@ fn points_nearly_in_line_on_the_hull_are_no_gap() {
     }
     let hull = made(&pslg, &Options::new().extent(Extent::Hull));
     assert!(hull.holds(), "{:?}", hull.failed);
+}
+
+/// A corner of the hull so flat that the edge beyond it is a hair's breadth away.
+#[test]
+fn corners_of_the_hull_are_not_cut_off() {
+    let points = [(0.0, 0.0), (1.0, 0.0), (1.0 + 1e-7, 5e-8), (0.5, 1.0)];
+    let pslg = Pslg::from_points(points.map(|(x, y)| DVec2::new(x, y)).to_vec());
+    let hull = made(&pslg, &Options::new().extent(Extent::Hull));
+    assert!(hull.vertex_of_point.iter().all(Option::is_some), "{:?}", hull.vertex_of_point);
+    assert!(hull.holds(), "{:?}", hull.failed);
+}
+
+/// Has no patience: what begins to work is cancelled.
+struct AtOnce;
+
+impl Monitor for AtOnce {
+    fn progress(&self, _: Phase, _: u64, _: u64) {}
+
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+fn hull_at_once(points: &[DVec2]) -> PslgError {
+    let valid = validate(&Pslg::from_points(points.to_vec())).unwrap();
+    let options = Options::new().extent(Extent::Hull);
+    let paper = options.clone().method(SegmentMethod::Paper);
+    let [plain, paper] = [options, paper].map(|options| mesh(&valid, &options, &AtOnce).err().unwrap());
+    assert_eq!(plain, paper);
+    plain
+}
+
+#[test]
+fn flat_hulls_are_refused_at_once() {
+    let zigzag =
+        |height: f64| [0.0, height, 0.0, height].into_iter().zip(0..4).map(|(y, x)| (f64::from(x), y));
+    let points = |pairs: &mut dyn Iterator<Item = (f64, f64)>| -> Vec<DVec2> {
+        pairs.map(|(x, y)| DVec2::new(x, y)).collect()
+    };
+    let error = hull_at_once(&points(&mut zigzag(1e-13)));
+    let PslgError::FlatHull { farthest, ends, distance } = error else { panic!("{error}") };
+    assert!([Feature::Point(1), Feature::Point(2)].contains(&farthest), "{farthest}");
+    assert_eq!(ends, [Feature::Point(0), Feature::Point(3)]);
+    assert!((distance - 2e-13 / 3.0).abs() < 1e-25, "{distance:e}");
+
+    // Turned, rounding is all that keeps points from a line.
+    let turn = DVec2::from_angle(0.3);
+    let turned: Vec<DVec2> = (0..300).map(|i| 5.0 + turn * (0.01 * f64::from(i))).collect();
+    // The three of a triangle have no two sides apart.
+    let triangle = points(&mut [(0.0, 0.0), (3.0, 0.0), (1.0, 1e-7)].into_iter());
+    for (points, most) in [(turned, 1e-14), (triangle, 1e-7), (points(&mut zigzag(1e-7)), 1e-7)] {
+        let error = hull_at_once(&points);
+        let PslgError::FlatHull { ends, distance, .. } = error else { panic!("{error}") };
+        let [a, b] = ends.map(|end| if let Feature::Point(i) = end { points[i] } else { panic!("{end}") });
+        let off = |p: &DVec2| ((b - a).perp_dot(*p - a) / a.distance(b)).abs();
+        let farthest = points.iter().map(off).fold(0.0, f64::max);
+        assert!(distance > 0.0 && distance <= most, "{distance:e}");
+        assert!((farthest - distance).abs() < 1e-14, "{farthest:e} {distance:e}");
+    }
+
+    let exact = hull_at_once(&points(&mut zigzag(0.0)));
+    assert!(matches!(exact, PslgError::FlatHull { distance: 0.0, .. }), "{exact}");
+    // This one is thin, and a mesh.
+    let thin = hull_at_once(&points(&mut zigzag(1e-5)));
+    assert!(matches!(thin, PslgError::Cancelled(_)), "{thin}");
 }
 
 #[test]

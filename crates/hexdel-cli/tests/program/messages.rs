@@ -37,6 +37,27 @@ fn segments_too_close_are_joined_by_the_tolerance_that_is_named() {
     bench.run(&format!("mesh {input} -q -o m.ele {repair}")).fine();
 }
 
+/// Rounding keeps points from a line, or nothing does.
+#[test]
+fn hulls_that_are_a_line_lead_to_other_domains() {
+    let bench = Bench::new();
+    bench.file("line.xyz", "0 0\n1 1e-13\n2 0\n3 1e-13\n");
+    bench.file("line.poly", "4 2 0 0\n1 0 0\n2 1 1e-13\n3 2 0\n4 3 1e-13\n0 0\n0\n");
+    bench.file("exact.xyz", "0 0\n1 1\n3 3\n");
+    let near = "the line through point 0 and point 3, 6.6";
+    for (input, what) in
+        [("line.xyz", near), ("line.poly", near), ("exact.xyz", "all points are on the line")]
+    {
+        let run = bench.run(&format!("mesh {input} -o m.ele --domain hull"));
+        run.refused(what);
+        assert!(run.err.contains("the convex hull is too flat to mesh"), "{}", run.err);
+        assert!(run.err.contains("help: --domain hexagon or box meshes"), "{}", run.err);
+        for domain in ["hexagon", "box"] {
+            bench.run(&format!("mesh {input} -q -o m.ele --domain {domain}")).fine();
+        }
+    }
+}
+
 /// Between edges of the hull no tolerance helps.
 #[test]
 fn hulls_too_thin_lead_to_other_domains() {

@@ -166,6 +166,9 @@ impl Names<'_> {
                 let given = |end: LooseEnd| LooseEnd { point: self.point(end.point), ..end };
                 PslgError::NothingEnclosed { loose: loose.into_iter().map(given).collect(), count }
             }
+            PslgError::FlatHull { farthest, ends, distance } => {
+                PslgError::FlatHull { farthest: self.item(farthest), ends: both(ends), distance }
+            }
             PslgError::NotRecovered { item, at } => PslgError::NotRecovered { item: self.item(item), at },
             other => other,
         }
@@ -284,6 +287,15 @@ mod tests {
             (
                 Error::Pslg(PslgError::NothingEnclosed { loose: vec![LooseEnd { point: 2, at }], count: 1 }),
                 "the segments enclose no area outside the holes; loose ends: point 12",
+            ),
+            (
+                Error::Pslg(PslgError::FlatHull {
+                    farthest: Feature::Point(1),
+                    ends: [0, 2].map(Feature::Point),
+                    distance: 1e-13,
+                }),
+                "the convex hull is too flat to mesh: point 11 is farthest from the line through point 10 and \
+                 point 12, 1e-13 away",
             ),
         ] {
             let text = names.of_mesh(error).to_string();
