@@ -203,6 +203,49 @@ mod tests {
         }
     }
 
+    /// What is not counter-clockwise is for others to complain about, also where the circle is a
+    /// line and the fourth point on its left.
+    #[test]
+    fn flat_triangles_are_locally_delaunay() {
+        let [a, c] = [DVec2::ZERO, DVec2::new(2.0, 0.0)];
+        for (b, d) in [(DVec2::X, DVec2::ONE), (DVec2::new(1.0, -1.0), DVec2::X)] {
+            assert!(incircle(a, b, c, d) > 0.0 && orient2d(a, b, c) * orient2d(a, c, d) == 0.0);
+            assert!(locally_delaunay(a, b, c, d), "{b} {d}");
+        }
+    }
+
+    /// The exact test has nothing to do for what is a few last places from a circle, whatever its size.
+    #[test]
+    fn angles_decide_all_but_the_cocircular() {
+        for scale in [-40, 0, 40].map(|k| 2f64.powi(k)) {
+            // The angle at b is obtuse. Ten last places of 5 are 2^-47.
+            let decided = |down: f64| {
+                let quad = [(4.0, 3.0), (0.0, 5.0), (-4.0, 3.0), (0.0, -5.0 - down)];
+                decided_by_angles(quad.map(|(x, y)| scale * DVec2::new(x, y)))
+            };
+            let off = 2f64.powi(-47);
+            assert_eq!([-off, 0.0, off].map(decided), [None, None, Some(true)], "{scale:e}");
+        }
+        let [a, c] = [DVec2::ZERO, DVec2::X];
+        let (flat, below) = (DVec2::new(3.0, 0.0), DVec2::new(0.5, -1.0));
+        assert_eq!(decided_by_angles([a, below, c, flat]), None);
+        assert_eq!(decided_by_angles([a, flat, c, -below]), None);
+        // Two right angles.
+        let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+        assert_eq!(decided_by_angles(square), Some(true));
+    }
+
+    #[test]
+    fn angles_are_surely_acute_up_to_rounding() {
+        for scale in [-40, 0, 40].map(|k| 2f64.powi(k)) {
+            let acute = |w: DVec2| surely_acute(scale * DVec2::ONE, scale * w);
+            assert!(acute(DVec2::X) && acute(DVec2::new(2f64.powi(-40) - 1.0, 1.0)), "{scale:e}");
+            // Right, obtuse, and acute by less than the differences may be off.
+            let excess = [0.0, -0.5, f64::EPSILON];
+            assert!(excess.into_iter().all(|x| !acute(DVec2::new(x - 1.0, 1.0))), "{scale:e}");
+        }
+    }
+
     #[test]
     fn not_finite_does_not_panic() {
         let nan = DVec2::splat(f64::NAN);

@@ -40,3 +40,22 @@ pub fn keeps_bounds_at(corners: [DVec2; 3], bounds: AngleBounds, lower: [bool; 3
         && orient2d(a, b, c) > 0.0
         && !matches!(check_angles_at(corners, bounds, lower), Fit::Outside { .. })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triangle_keeps_bounds_if_it_is_finite_counter_clockwise_and_within_them() {
+        let [a, b, c] = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        let (fit, tight) = (AngleBounds::new(45.0, 90.0).unwrap(), AngleBounds::new(45.1, 90.0).unwrap());
+        assert!(keeps_bounds([a, b, c], fit) && !keeps_bounds([a, b, c], tight));
+        assert!(!keeps_bounds([a, c, b], fit) && !keeps_bounds([a, b, 2.0 * b], AngleBounds::at_least(0.0)));
+        for coordinate in [f64::NAN, f64::INFINITY] {
+            assert!(!keeps_bounds([a, b, DVec2::new(0.0, coordinate)], AngleBounds::at_least(0.0)));
+        }
+        // The lower bound counts at b and c, where angles are too small, or at a alone.
+        assert!(!keeps_bounds_at([a, b, c], tight, [false, true, true]));
+        assert!(keeps_bounds_at([a, b, c], tight, [true, false, false]));
+    }
+}

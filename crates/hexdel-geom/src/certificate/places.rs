@@ -316,6 +316,24 @@ mod tests {
         assert!(far(&mesh, &[DVec2::ZERO], 45.0).holds());
     }
 
+    /// Far from the origin coordinates are rounded to what shows in angles of 45 and 90 degrees; there are
+    /// more triangles than one thread handles at a time.
+    #[test]
+    fn far_triangles_past_their_bounds_by_rounding_are_counted() {
+        let mut mesh = strip(CHUNK, 0.5);
+        for v in &mut mesh.vertices {
+            *v = DVec2::new(1e6, -2e6) + 0.007 * DVec2::new(0.6, 0.8).rotate(*v);
+        }
+        let past = |corners| {
+            let past = |angle| !(45.0 - 1e-9..=90.0 + 1e-9).contains(&angle);
+            crate::quality::angles_deg(corners).into_iter().any(past)
+        };
+        let limited = mesh.triangles.iter().filter(|v| past(v.map(|v| mesh.vertices[v.index()]))).count();
+        let found = far(&mesh, &[], 45.0);
+        assert!(found.holds() && limited > CHUNK / 2, "{limited}");
+        assert_eq!((found.far, found.rounding_limited), (2 * CHUNK - 2, limited));
+    }
+
     #[test]
     fn edges_and_the_boundary_are_features_if_they_are_said_to_be() {
         let mesh = strip(6, 0.5);
@@ -350,6 +368,38 @@ mod tests {
             let found = check_promises(&mesh, &Promises { max_edge: Some(&limit), ..Promises::default() });
             assert_eq!(found.broken.iter().filter(|b| b.triangle == TriangleId::new(0)).count(), 1, "{end}");
         }
+    }
+
+    #[test]
+    fn limits_are_asked_for_by_triangle_and_centroid() {
+        let mesh = strip(3, 0.5);
+        let corners = |t: TriangleId| mesh.triangles[t.index()].map(|v| mesh.vertices[v.index()]);
+        let max_area = |t: TriangleId, at: DVec2| {
+            let [a, b, c] = corners(t);
+            assert!(at.distance((a + b + c) * (1.0 / 3.0)) < 1e-15, "{at}");
+            if t.index() == 2 { 0.2 } else { 0.3 }
+        };
+        let found = check_promises(&mesh, &Promises { max_area: Some(&max_area), ..Promises::default() });
+        let broken: Vec<usize> = found.broken.iter().map(|b| b.triangle.index()).collect();
+        assert_eq!(broken, [2]);
+    }
+
+    /// Edges of 3, 4 and 5; the longest is not the one farthest above its limit.
+    #[test]
+    fn the_edge_that_exceeds_its_limit_by_most_is_named() {
+        let [a, b, c] = [DVec2::new(1.0, 1.0), DVec2::new(5.0, 1.0), DVec2::new(1.0, 4.0)];
+        let most = |limits: [f64; 3]| {
+            let middles = [[a, b], [b, c], [c, a]].map(|[p, q]| p.midpoint(q));
+            let at = |p| middles.iter().zip(limits).find(|(m, _)| **m == p).map_or(9.0, |(_, limit)| limit);
+            excess_edge([a, b, c], &at)
+        };
+        assert_eq!(most([3.9, 4.0, 1.0]), Some(Promise::Edge { length: 3.0, limit: 1.0 }));
+        assert_eq!(most([3.0, 4.9, 2.9]), Some(Promise::Edge { length: 4.0, limit: 3.0 }));
+        assert_eq!(most([4.0, 4.0, 3.0]), Some(Promise::Edge { length: 5.0, limit: 4.0 }));
+        assert_eq!(most([4.0, 5.0, 3.0]), None);
+        // Up to the tolerance a limit is kept.
+        assert_eq!(most([4.0, 5.0, 3.0].map(|l| l * (1.0 - 0.9 * SIZE_TOLERANCE))), None);
+        assert!(most([4.0, 5.0 * (1.0 - 1.1 * SIZE_TOLERANCE), 3.0]).is_some());
     }
 
     #[test]

@@ -57,6 +57,29 @@ fn a_sound_mesh_holds() {
     assert!(c.holds() && (c.max_aspect_ratio - 1.0).abs() < 1e-14);
 }
 
+/// One fault is enough, and none makes up for another.
+#[test]
+fn each_fault_alone_and_all_together_fail() {
+    let sound = wide(&sound());
+    let counts: [fn(&mut Certificate) -> &mut usize; 6] = [
+        |c| &mut c.out_of_bounds,
+        |c| &mut c.not_counter_clockwise,
+        |c| &mut c.malformed,
+        |c| &mut c.not_finite,
+        |c| &mut c.stretched_triangles,
+        |c| &mut c.short_triangles,
+    ];
+    for (i, one) in counts.iter().enumerate() {
+        for other in &counts[i..] {
+            let mut c = sound.clone();
+            *one(&mut c) = 1;
+            *other(&mut c) = 1;
+            assert!(!c.holds(), "{c:?}");
+            assert_eq!(c.min_edge_holds(), c.short_triangles == 0);
+        }
+    }
+}
+
 #[test]
 fn survives_json() {
     let mut m = sound();
@@ -176,6 +199,23 @@ fn flipped_and_degenerate_triangles() {
     assert_eq!(wide(&flat).not_counter_clockwise, usize::from(exactly <= 0.0));
 }
 
+/// Near a line the sign of a cross product in doubles is what rounding makes of it, in large triangles and in small ones.
+#[test]
+fn orientation_is_exact_where_rounding_lies() {
+    let mut lies = 0;
+    for i in 0..3000_u32 {
+        let part = |k: f64| libm::sin(f64::from(i) * k).abs();
+        let scale = 2f64.powi([-40, 0, 40][i as usize % 3]);
+        let (a, b) = (DVec2::new(part(1.1), part(2.3)), DVec2::new(part(3.7), part(4.9)));
+        let [a, b, c] = [a, b, a + part(5.3) * (b - a)].map(|p| scale * p);
+        let m = mesh(&[a.into(), b.into(), c.into()], &[[0, 1, 2]]);
+        let clockwise = orientation(&m) <= 0.0;
+        lies += usize::from(clockwise == ((b - a).perp_dot(c - a) > 0.0));
+        assert_eq!(wide(&m).not_counter_clockwise, usize::from(clockwise), "{a} {b} {c}");
+    }
+    assert!(lies > 300, "{lies}");
+}
+
 fn orientation(m: &TriMesh) -> f64 {
     crate::orient2d(m.vertices[0], m.vertices[1], m.vertices[2])
 }
@@ -262,6 +302,19 @@ fn bow_tie() {
 }
 
 #[test]
+fn edges_at_a_branching_vertex_are_delaunay_or_not_if_two_triangles_share_them() {
+    // The sum of the angles opposite the edge 0-2 is more than 300 degrees.
+    let kite = [[0.0, 0.0], [1.0, -0.2], [2.0, 0.0], [1.0, 0.2]];
+    let vertices = [&kite[..], &[[-1.0, 0.5], [-1.0, -0.5], [1.0, 0.6]]].concat();
+    let mut triangles = vec![[0, 1, 2], [0, 2, 3], [0, 4, 5]];
+    let c = wide(&mesh(&vertices[..6], &triangles));
+    assert_eq!((c.branching_vertices, c.repeated_edges, c.non_delaunay_edges), (1, 0, 1));
+    triangles.push([0, 2, 6]);
+    let c = wide(&mesh(&vertices, &triangles));
+    assert_eq!((c.repeated_edges, c.non_delaunay_edges), (1, 0));
+}
+
+#[test]
 fn t_junction() {
     // Vertex 4 lies on the edge 0-2 of the first triangle.
     let m = mesh(
@@ -303,6 +356,11 @@ fn bad_indices_and_coordinates() {
         Violation::RepeatedCorner { .. },
     ] if vertex.index() == 4));
     assert!(!c.holds());
+    for twice in [[3, 3, 0], [0, 3, 3], [3, 0, 3]] {
+        let c = wide(&mesh(&[[0.0, 0.0]; 4], &[twice]));
+        let named = Violation::RepeatedCorner { triangle: TriangleId::new(0), vertex: VertexId::new(3) };
+        assert_eq!(c.violations[0], named);
+    }
     let lone = TriMesh { vertices: Vec::new(), triangles: m.triangles };
     assert_eq!(wide(&lone).malformed, 5);
 }
@@ -316,6 +374,32 @@ fn short_edges() {
     assert_eq!(holds(1.0), (0, true));
     assert_eq!(holds(1.0 + 1e-9), (6, false));
     assert_eq!(holds(f64::NAN), (6, false));
+    assert_eq!(holds(1.0 + 0.5 * LENGTH_TOLERANCE), (0, true));
+    assert_eq!(holds(1.0 + 2.0 * LENGTH_TOLERANCE), (6, false));
+}
+
+/// Coordinates around 1e6 are rounded to 1.2e-10: half of that both ways at both ends, twice, is 3.3e-10.
+#[test]
+fn edges_that_rounding_has_shortened_are_not_too_short() {
+    let m = mesh(&[[1e6, 1e6], [1e6 + 0.25, 1e6], [1e6, 1e6 + 0.5]], &[[0, 1, 2]]);
+    let short = |more: f64| {
+        let bounds = WIDE();
+        certify(&m, &CertifyOptions { bounds, min_edge: Some(0.25 + more), ..Default::default() })
+            .short_triangles
+    };
+    assert_eq!([short(2.5e-10), short(4e-10)], [0, 1]);
+}
+
+#[test]
+fn flat_triangles_have_a_shortest_edge_and_nothing_to_be_too_short_for() {
+    for turn in 0..3 {
+        let mut line = [[1.0, 1.0], [4.0, 4.0], [6.0, 6.0]];
+        line.rotate_left(turn);
+        let c = wide(&mesh(&line, &[[0, 1, 2]]));
+        assert!((c.shortest_edge - 8.0_f64.sqrt()).abs() < 1e-14, "{c:?}");
+    }
+    let c = wide(&mesh(&[[0.0, 0.0], [0.0, 0.0], [1.0, 0.0]], &[[0, 1, 2]]));
+    assert_eq!((c.not_counter_clockwise, c.short_triangles, c.shortest_edge), (1, 0, 0.0));
 }
 
 #[test]

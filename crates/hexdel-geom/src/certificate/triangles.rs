@@ -393,3 +393,26 @@ fn rounding_slack_deg([a, b, c]: [DVec2; 3]) -> f64 {
 fn displacement(p: DVec2) -> f64 {
     0.5 * DVec2::new(ulp(p.x), ulp(p.y)).length()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The derivation term by term: twice half an ulp of each end over its side, and of the corner
+    /// over both.
+    #[test]
+    fn rounding_turns_an_angle_by_the_displacements_over_the_sides() {
+        let near = |found: f64, turn: f64| {
+            let expected = (2.0 * turn).to_degrees();
+            assert!((found - expected).abs() < 1e-3 * expected, "{found:e} {expected:e}");
+        };
+        // The corner is exact, as are the zeros of its ends.
+        let (b, c) = (DVec2::new(1e6, 0.0), DVec2::new(0.0, 3e6));
+        near(rounding_slack_deg([DVec2::ZERO, b, c]), 0.5 * (ulp(1e6) / 1e6 + ulp(3e6) / 3e6));
+        // Sides of 2, 4 and sqrt(20) far away.
+        let a = DVec2::new(1e6, 0.0);
+        let displacement = 0.5 * ulp(1e6);
+        let corners = [a, a + DVec2::new(2.0, 0.0), a + DVec2::new(0.0, 4.0)];
+        near(rounding_slack_deg(corners), displacement * (1.0 / 2.0 + 1.0 / 4.0 + 20.0_f64.sqrt() / 8.0));
+    }
+}
