@@ -400,6 +400,8 @@ mod tests {
         // Up to the tolerance a limit is kept.
         assert_eq!(most([4.0, 5.0, 3.0].map(|l| l * (1.0 - 0.9 * SIZE_TOLERANCE))), None);
         assert!(most([4.0, 5.0 * (1.0 - 1.1 * SIZE_TOLERANCE), 3.0]).is_some());
+        let at_tolerance = [DVec2::ZERO, DVec2::new(1.0 + SIZE_TOLERANCE, 0.0), DVec2::new(0.5, 0.5)];
+        assert_eq!(excess_edge(at_tolerance, &|_| 1.0), None);
     }
 
     #[test]

@@ -376,6 +376,14 @@ fn short_edges() {
     assert_eq!(holds(f64::NAN), (6, false));
     assert_eq!(holds(1.0 + 0.5 * LENGTH_TOLERANCE), (0, true));
     assert_eq!(holds(1.0 + 2.0 * LENGTH_TOLERANCE), (6, false));
+    // A clockwise one is looked at more closely.
+    let mut clockwise = hexagon();
+    clockwise.triangles = vec![[0, 2, 1].map(VertexId::new)];
+    let short = |more: f64| {
+        let min_edge = Some(1.0 + more * LENGTH_TOLERANCE);
+        certify(&clockwise, &CertifyOptions { min_edge, ..Default::default() }).short_triangles
+    };
+    assert_eq!([short(0.5), short(2.0)], [0, 1]);
 }
 
 /// Coordinates around 1e6 are rounded to 1.2e-10: half of that both ways at both ends, twice, is 3.3e-10.
