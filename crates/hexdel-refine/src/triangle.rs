@@ -241,17 +241,56 @@ fn kept_by(d: Direction, a: Template, b: Template) -> [u64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hexdel_classify::Class;
+    use hexdel_classify::class::middle_fin;
     use hexdel_classify::relocate::relocation;
 
-    #[test]
-    fn templates_are_what_relocates() {
-        let mut seen = [false; Template::COUNT];
-        for seed in 0..3000_i64 {
+    /// Windows with discs of subdivided hexagons, or of others.
+    fn windows() -> impl Iterator<Item = Window> {
+        (0..3000_i64).map(|seed| {
             let centre = |i: i64| Hex::new((seed * 7 + i * 5) % 16 - 4, (seed * 3 + i * 11) % 16 - 4);
             let disc = |i: i64| centre(i).disc(((seed + i) % 3 + 1) as u32);
             let inside = |h: &Hex| Window::with_margin(4).iter().any(|w| w == *h);
             let holes: Window = (0..4).flat_map(disc).filter(inside).collect();
-            let subdivided = if seed % 2 == 0 { holes } else { !holes };
+            if seed % 2 == 0 { holes } else { !holes }
+        })
+    }
+
+    /// Of two hexagons, what is beside both decides.
+    #[test]
+    fn pairs_are_foreign_that_share_no_fin_and_no_three_finned_hexagon_of_a_top() {
+        let mut counts = [0, 0];
+        for subdivided in windows() {
+            let c = Classes::of(subdivided);
+            let m = Movement::of(&c);
+            let pairs = [m.foreign::<0>(), m.foreign::<1>(), m.foreign::<2>()];
+            let moved = |at: Hex| {
+                matches!(c.class_of(at), Class::MovedCenter1 | Class::MovedCenter2 | Class::MovedCenter4)
+            };
+            for (a, d) in Window::with_margin(1).iter().flat_map(|a| (0..3).map(move |d| (a, d))) {
+                let along = Direction::new(d);
+                let b = a.neighbour(along);
+                if !moved(a) || !moved(b) {
+                    assert!(!pairs[d].contains(a), "{a:?} {d}");
+                    continue;
+                }
+                let joins = |turn: usize| {
+                    let between = a.neighbour(along.turned(turn));
+                    let top = middle_fin(subdivided, between).map(|d| between.neighbour(d.turned(3)));
+                    subdivided.contains(between) || top.is_some_and(|top| top == a || top == b)
+                };
+                let foreign = !joins(1) && !joins(5);
+                assert_eq!(pairs[d].contains(a), foreign, "{a:?} {d} in {subdivided:?}");
+                counts[usize::from(foreign)] += 1;
+            }
+        }
+        assert!(counts.into_iter().all(|n| n > 1000), "{counts:?}");
+    }
+
+    #[test]
+    fn templates_are_what_relocates() {
+        let mut seen = [false; Template::COUNT];
+        for subdivided in windows() {
             let c = Classes::of(subdivided);
             for at in Window::with_margin(1).without(c.moved3).iter() {
                 let template = Movement::of(&c).template(at);
