@@ -209,10 +209,11 @@ impl Monitor for AtOnce {
 }
 
 fn hull_at_once(points: &[DVec2]) -> PslgError {
-    let valid = validate(&Pslg::from_points(points.to_vec())).unwrap();
+    let valid = validate(&Pslg::from_points(points.to_vec())).expect("points are a graph");
     let options = Options::new().extent(Extent::Hull);
     let paper = options.clone().method(SegmentMethod::Paper);
-    let [plain, paper] = [options, paper].map(|options| mesh(&valid, &options, &AtOnce).err().unwrap());
+    let [plain, paper] =
+        [options, paper].map(|options| mesh(&valid, &options, &AtOnce).expect_err("there is no patience"));
     assert_eq!(plain, paper);
     plain
 }

@@ -171,7 +171,7 @@ fn triangle_rule() {
 fn rules_about_what_must_exist() {
     wants(&simple::Balance, |at| at.any_within(1, At::subdivided));
     wants(&simple::OccupiedAmongFull, |at| at.any_within(1, At::occupied));
-    wants(&coarse::OccupiedFull, |at| at.occupied());
+    wants(&coarse::OccupiedFull, |at| at.occupied1() || at.occupied2());
     wants(&coarse::StarAmongFull, |at| at.any_within(1, |near| near.class() == Class::MovedCenter3));
     wants(&coarse::MovedAmongFull, |at| at.any_within(1, At::is_moved));
     wants(&extended::FixedBesideFins, |at| {
