@@ -386,6 +386,18 @@ fn short_edges() {
     assert_eq!([short(0.5), short(2.0)], [0, 1]);
 }
 
+/// Extreme coordinates are scaled for the arithmetic, and told as they are.
+#[test]
+fn short_edges_are_told_in_units_of_the_mesh() {
+    for unit in [2f64.powi(-200), 1.0, 2f64.powi(200)] {
+        let vertices = [[0.0, 0.0], [1.5 * unit, 0.0], [0.0, 2.0 * unit]];
+        let request = CertifyOptions { bounds: WIDE(), min_edge: Some(1.75 * unit), ..Default::default() };
+        let c = certify(&mesh(&vertices, &[[0, 1, 2]]), &request);
+        let [Violation::EdgeTooShort { length, corners, .. }] = c.violations[..] else { panic!("{c:?}") };
+        assert_eq!((length, corners), (1.5 * unit, vertices.map(DVec2::from)));
+    }
+}
+
 /// Coordinates around 1e6 are rounded to 1.2e-10: half of that both ways at both ends, twice, is 3.3e-10.
 #[test]
 fn edges_that_rounding_has_shortened_are_not_too_short() {
