@@ -266,6 +266,36 @@ mod tests {
     }
 
     #[test]
+    fn the_plane_of_a_point_is_the_same_however_it_came_there() {
+        const LEVEL: u8 = 12;
+        let lattice = lattice();
+        let plane = |point| Site::new(&lattice, LEVEL, point).plane(&lattice);
+        let descended =
+            |point| (0..LEVEL).fold(Site::new(&lattice, 0, point), |site, _| site.below(&lattice));
+        let spacing = lattice.spacing(LEVEL);
+        let mut crossings = 0;
+        for i in 0..400 {
+            let start = DVec2::new(f64::from(i % 20) * 0.0817, f64::from(i / 20) * 0.0643);
+            let step = DVec2::from_angle(f64::from(i)) * (0.05 * spacing);
+            // Where the plane changes along the step, if it does.
+            let (mut low, mut high) = (0.0, 1.0);
+            if plane(start) == plane(start + step) {
+                continue;
+            }
+            crossings += 1;
+            while high - low > 1e-13 {
+                let middle = f64::midpoint(low, high);
+                if plane(start + middle * step) == plane(start) { low = middle } else { high = middle }
+            }
+            for beside in (0..60).map(|k| 0.5_f64.powi(10 + k / 2) * f64::from(1 - k % 2 * 2)) {
+                let point = start + (low + beside) * step;
+                assert_eq!(descended(point).plane(&lattice), plane(point), "{i} {beside:e}");
+            }
+        }
+        assert!(crossings > 20, "{crossings}");
+    }
+
+    #[test]
     fn pairs_are_sorted_by_key_and_equal_ones_stay_in_order() {
         for (count, key) in [(100, u64::MAX), (5000, u64::MAX), (5000, 0xfff0_0000_0f00_00ff), (3000, 0)] {
             let mixed = |i: u32| (u64::from(i) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
