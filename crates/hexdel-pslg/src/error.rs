@@ -139,8 +139,8 @@ pub enum PslgError {
         /// How many there are.
         count: usize,
     },
-    /// The convex hull was asked for, and all points are in a line, or so nearly that there is nothing in
-    /// it to mesh. Around the points there is.
+    /// The convex hull was asked for, but all points are in a line, or so nearly that the hull has no area to
+    /// mesh. The other domains have one.
     #[error("the convex hull is too flat to mesh: {}", flat(*farthest, *ends, *distance))]
     FlatHull {
         /// The point farthest from the line.

@@ -19,8 +19,8 @@ const GROWN_DEG: f64 = 43.0;
 /// The largest lower bound, degrees, at which it ends with few vertices however few points there are.
 const EASY_DEG: f64 = 42.5;
 
-/// Of so many triangles of a mesh that is to be repaired, one may be out of bounds after growth.
-const ENDED: usize = 1000;
+/// Of so many triangles one may be out of bounds after growth, for the mesh to be repaired.
+const TRIANGLES_PER_LEFT: usize = 1000;
 
 /// Points from which on a mesh grows whatever its bounds. The optimiser needs room for what is beyond [`EASY_DEG`].
 const MANY: usize = 5000;
@@ -208,7 +208,7 @@ impl Mesher {
         let options = hexdel_grow::Options::new(least).with_deadline(time.deadline());
         match grow(&input, &options, monitor) {
             // Growth that spent its limit leaves much, and made more than removals undo.
-            Ok(made) if made.left.len() > made.mesh.triangles.len() / ENDED => Ok(None),
+            Ok(made) if made.left.len() > made.mesh.triangles.len() / TRIANGLES_PER_LEFT => Ok(None),
             Ok(made) => Ok(begun(made, sites.len(), patch, began.elapsed())),
             Err(GrowError::Cancelled(c)) => Err(c.into()),
             Err(_) => Ok(None),
