@@ -75,8 +75,11 @@ const GROWTH: f64 = 0.8;
 /// much longer than what is left to that thing.
 const CLEAR: f64 = 0.5;
 
-/// The radii of two rings over the distance of their centres.
+/// The radii of two rings over the distance of their centres at most.
 const CLEAR_OF_RING: f64 = 0.9;
+
+/// What two rings leave between them, in lengths of the ring's edges there.
+const BETWEEN_RINGS: f64 = 0.45;
 
 /// How far beyond the ring anything is that is not on it, in lengths of the
 /// ring's edges there: what is between has the room for good angles. Of things
@@ -181,8 +184,16 @@ struct Spokes<'a> {
 struct Room {
     /// Of a ring that is clear of all but other rings.
     radius: f64,
-    /// Sites that may have a ring, too, and how far away they are; perhaps more than once.
-    ringed: Vec<(u32, f64)>,
+    /// Sites that may have a ring, too; perhaps more than once.
+    ringed: Vec<Other>,
+}
+
+/// A site that may have a ring, as seen from another.
+#[derive(Clone, Copy)]
+struct Other {
+    site: u32,
+    /// The radii of both rings together at most.
+    shared: f64,
 }
 
 /// A ring to be.
@@ -253,10 +264,8 @@ impl<'a> Spokes<'a> {
         let made = |at: &&[Spoke]| {
             let site = at[0].site;
             let room = &rooms[&site];
-            // What one ring leaves of the distance is for the other.
-            let left = |&(other, distance): &(u32, f64)| {
-                f64::max(0.5 * CLEAR_OF_RING * distance, CLEAR_OF_RING * distance - rooms[&other].radius)
-            };
+            // What one ring leaves of what they share is for the other.
+            let left = |other: &Other| f64::max(0.5 * other.shared, other.shared - rooms[&other.site].radius);
             let clear = room.ringed.iter().map(left).fold(room.radius, f64::min);
             fan(at, clear.min(most(self.scene.sites[site as usize])))
         };
@@ -290,7 +299,7 @@ impl<'a> Spokes<'a> {
                 {
                     room.radius = room.radius.min(clear(p));
                     if is_ringed(s) {
-                        room.ringed.push((s, centre.distance(p)));
+                        room.ringed.push(Other { site: s, shared: shared(at, self.at(s), [centre, p]) });
                     }
                 }
                 if tri.edge(i).contains(&vertex) {
@@ -362,6 +371,13 @@ fn clearance(centre: DVec2, at: &[Spoke]) -> impl Fn(DVec2) -> f64 {
         let beyond = 1.0 / (1.0 + BEYOND * size(direction(p - centre)));
         centre.distance(p) * CLEAR.max(beyond)
     }
+}
+
+/// The radii of the rings around two sites together at most. What is left between them is edge after edge longer
+/// by a factor of two at most, beside the ring's edges, which are not divided.
+fn shared(at: &[Spoke], other: &[Spoke], [a, b]: [DVec2; 2]) -> f64 {
+    let edge = f64::max(sizes(at)(direction(b - a)), sizes(other)(direction(a - b)));
+    a.distance(b) * CLEAR_OF_RING.min(1.0 / (1.0 + BETWEEN_RINGS * edge))
 }
 
 /// The angles from each spoke to the next, radians.
