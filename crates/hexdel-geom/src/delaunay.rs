@@ -95,7 +95,7 @@ pub struct FlipReport {
 /// # Errors
 ///
 /// [`DelaunayError`]. After [`DelaunayError::Stuck`] the mesh is a valid mesh
-/// on which part of the work has been done; after the others it is untouched.
+/// on which all other work has been done; after the others it is untouched.
 ///
 /// # Complexity
 ///
@@ -142,13 +142,17 @@ pub fn restore_constrained_delaunay(
     let largest = if queue.is_empty() { 0.0 } else { largest_coordinate(&mesh.vertices) };
     let queue = queue.into();
     let mut repair = Repair { mesh, bounds, free, flippable, rings, queue, report, largest, spoiling_moves };
+    // One edge that is stuck is no reason to leave the others.
+    let mut left = Vec::new();
     for _ in 0..budget {
         let Some(ends) = repair.queue.pop_front() else {
             break;
         };
-        repair.edge(ends)?;
+        if !repair.edge(ends) {
+            left.push(ends);
+        }
     }
-    match repair.queue.iter().find_map(|&ends| repair.bad_quad(ends)) {
+    match left.iter().chain(&repair.queue).find_map(|&ends| repair.bad_quad(ends)) {
         Some(quad) => Err(repair.stuck(&quad)),
         None => Ok(repair.report),
     }
@@ -258,17 +262,18 @@ struct Repair<'a, F, G> {
 }
 
 impl<F: Fn(VertexId) -> bool, G: Fn([VertexId; 2]) -> bool> Repair<'_, F, G> {
-    fn edge(&mut self, ends: [u32; 2]) -> Result<(), DelaunayError> {
+    /// Makes an edge Delaunay, if that can be done.
+    fn edge(&mut self, ends: [u32; 2]) -> bool {
         let Some(quad) = self.bad_quad(ends) else {
-            return Ok(());
+            return true;
         };
         let [a, b, c, d] = quad.corners;
         let flippable = (self.flippable)([a, c].map(|v| VertexId::new(v as usize)));
         if flippable && [[a, b, d], [b, c, d]].into_iter().all(|t| self.fits(t)) {
             self.flip(&quad);
-            return Ok(());
+            return true;
         }
-        if self.nudge(&quad) { Ok(()) } else { Err(self.stuck(&quad)) }
+        self.nudge(&quad)
     }
 
     fn stuck(&self, quad: &Quad) -> DelaunayError {

@@ -346,6 +346,30 @@ fn narrow_corners_spoil_triangles_at_their_point_only() {
     }
 }
 
+/// A segment with a narrow corner at either end, which both have a fan.
+fn two_narrow_corners(length: f64, corner_deg: f64) -> Pslg {
+    let mut pslg = Pslg::from_points(vec![DVec2::ZERO, DVec2::X]);
+    pslg.segments = vec![[0, 1]];
+    for (site, side) in [(0, -1.0), (1, 1.0)] {
+        for turn in [-0.5, 0.5] {
+            let (sin, cos) = libm::sincos((7.0 + turn * corner_deg).to_radians());
+            pslg.segments.push([site, pslg.points.len() as u32]);
+            pslg.points.push(pslg.points[site as usize] + length * DVec2::new(side * cos, sin));
+        }
+    }
+    pslg
+}
+
+#[test]
+fn two_fans_on_a_segment_leave_room_between_them() {
+    for (length, corner_deg) in [(30.0, 5.0), (30.0, 2.0), (30.0, 0.5)] {
+        let pslg = two_narrow_corners(length, corner_deg);
+        let made = made(&pslg, &Options::new().extent(Extent::Hull));
+        assert!(made.holds(), "{corner_deg}: {:?}", made.failed);
+        assert_eq!(support::check(&pslg, &made), Ok(()), "{corner_deg}");
+    }
+}
+
 #[test]
 fn higher_bounds_have_fans_at_wider_corners() {
     let near = AngleBounds::new(43.8978, 90.0).expect("ordered");

@@ -198,6 +198,28 @@ fn kite_tiling(n: i32, turn: f64, at: DVec2) -> TriMesh {
 }
 
 #[test]
+fn one_stuck_edge_leaves_the_others_to_be_repaired() {
+    let spoilt = |all: &mut dyn Iterator<Item = f64>| {
+        let is_stuck =
+            |m: &TriMesh| restore_delaunay(&mut m.clone(), AngleBounds::EXTENDED, |_| false).is_err();
+        all.map(kite).find(is_stuck).unwrap()
+    };
+    let mut m = spoilt(&mut (0..100).map(|i| f64::from(i) * 0.1));
+    let second = spoilt(&mut (100..200).map(|i| f64::from(i) * 0.1));
+    let first = m.vertices.len();
+    m.vertices.extend(second.vertices.iter().map(|v| v + DVec2::new(100.0, 0.0)));
+    let moved = |t: &[VertexId; 3]| t.map(|v| VertexId::new(first + v.index()));
+    m.triangles.extend(second.triangles.iter().map(moved));
+    let result = restore_delaunay(&mut m, AngleBounds::EXTENDED, |v| v.index() >= first);
+    let Err(DelaunayError::Stuck { edge, .. }) = result else { panic!("{result:?}") };
+    assert!(edge.iter().all(|v| v.index() < first));
+    let ids = |t: &[VertexId; 3]| t.map(|v| VertexId::new(v.index() - first));
+    let triangles = m.triangles.iter().filter(|t| t[0].index() >= first).map(ids).collect();
+    let second = TriMesh { vertices: m.vertices.split_off(first), triangles };
+    assert!(is_delaunay(&second, AngleBounds::EXTENDED));
+}
+
+#[test]
 fn interlocking_kites_end_in_an_error() {
     let bounds = AngleBounds::new(30.0, 90.0).unwrap();
     for turn in 0..4 {
