@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 /// Convert a mesh, or points with segments, to another format
 #[derive(clap::Args)]
 #[command(after_help = "\
-    Meshes    .ele (with .node), .vtu, .msh, .obj, .off, .mesh, .json, .ron; written only:\n          \
-    .edge, .neigh, .poly, .svg, .png\n\
+    Meshes    .ele (with .node), .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron; written only:\n          \
+    .edge, .neigh, .poly, .vtk, .stl, .nc, .geojson, .wkt, .svg, .png\n\
     Points    .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron; read only: .geojson,\n          \
-    .wkt, .json of CG:SHOP\n\
+    .geojsonl, .geojsons, .ndjson, .wkt, .2dm, .14, .json of CG:SHOP\n\
     A .node is read as a mesh only if the output can be nothing else. Markers, regions and\n\
     marked edges are kept if the format has them; a warning names what is lost.\n\n\
     Examples:\n  \
@@ -39,7 +39,7 @@ pub(crate) struct Args {
     /// Format of INPUT [default: by extension]
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     input_format: Option<String>,
-    /// Columns of x and y in a table, by name or number
+    /// Columns of x and y, perhaps of heights, in a table, by name or number
     #[arg(long, value_name = "X,Y")]
     columns: Option<Columns>,
 }
@@ -119,8 +119,8 @@ impl Args {
     fn read(&self, input: &str, output: &str) -> Result<Content, Failure> {
         let mesh = MeshFormat::from_name(input);
         let points = PointFormat::from_name(input);
-        let [to_mesh, to_points] =
-            [MeshFormat::from_name(output).is_some(), PointFormat::from_name(output).is_some()];
+        let to_mesh = MeshFormat::from_name(output).is_some();
+        let to_points = PointFormat::from_name(output).is_some_and(PointFormat::is_written);
         match (mesh, points) {
             (Some(MeshFormat::NodeEle), Some(points)) if to_points => self.points(points),
             (Some(mesh), Some(points)) if matches!(mesh, MeshFormat::Json | MeshFormat::Ron) => {
@@ -195,11 +195,11 @@ impl Args {
     }
 }
 
-const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .poly, .csv, .tsv, .xyz, .txt, \
-    .pts, .geojson, .geojsonl, .wkt";
+const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron, .poly, .csv, .tsv, \
+    .xyz, .txt, .pts, .geojson, .geojsonl, .geojsons, .ndjson, .wkt";
 
-const WRITABLE: &str = ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg, .csv, \
-    .tsv, .xyz, .txt, .pts";
+const WRITABLE: &str = ".node, .ele, .edge, .neigh, .poly, .vtu, .vtk, .msh, .obj, .off, .mesh, .stl, .2dm, .14, \
+    .nc, .geojson, .wkt, .json, .ron, .svg, .csv, .tsv, .xyz, .txt, .pts";
 
 fn names_format(name: &str) -> bool {
     MeshFormat::from_name(name).is_some() || PointFormat::from_name(name).is_some()

@@ -14,6 +14,10 @@ use std::path::PathBuf;
     of a two-point flux. Exit status 1 if a weight is negative.\n\n\
     Formats, by extension:\n  \
     .vtu             cells as polygons, with their vertex and area\n  \
+    .geojson, .wkt   the same for geographic information systems\n  \
+    .nc              the same as the faces of UGRID\n  \
+    .disv            cells of MODFLOW 6\n  \
+    .mpas.nc         cells and triangles for MPAS's mesh converter\n  \
     .v.node, .v.edge circumcentres and the edges between them, as Triangle has them\n\n\
     Examples:\n  \
     hexdel dual mesh.ele -o cells.vtu\n  \

@@ -18,7 +18,7 @@ pub(crate) struct Formats {
     /// Format of standard input, if it differs from that of the output
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     input_format: Option<String>,
-    /// Columns of x and y in a table, by name or number
+    /// Columns of x and y, perhaps of heights, in a table, by name or number
     #[arg(long, value_name = "X,Y")]
     columns: Option<Columns>,
 }

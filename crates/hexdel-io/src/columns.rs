@@ -19,7 +19,7 @@ pub enum Column {
     Name(String),
 }
 
-/// The columns of x and y that are asked for.
+/// The columns of x, y and perhaps heights that are asked for.
 ///
 /// ```
 /// use hexdel_io::{Column, Columns};
@@ -27,6 +27,7 @@ pub enum Column {
 /// let columns: Columns = "Easting,3".parse()?;
 /// assert_eq!(columns.x, Column::Name("Easting".to_owned()));
 /// assert_eq!(columns.y, Column::Number(3));
+/// assert_eq!("1,2,3".parse::<Columns>()?.z, Some(Column::Number(3)));
 /// assert!("Easting".parse::<Columns>().is_err());
 /// # Ok::<(), hexdel_io::ColumnsError>(())
 /// ```
@@ -36,14 +37,18 @@ pub struct Columns {
     pub x: Column,
     /// That of y.
     pub y: Column,
+    /// That of heights, if there is to be one.
+    pub z: Option<Column>,
 }
 
-/// Why a text names no two columns.
+/// Why a text names no two or three columns.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ColumnsError {
-    /// They are not two.
-    #[error("expected the columns of x and y by name or number, like 2,3, got {found:?}")]
+    /// They are neither two nor three.
+    #[error(
+        "expected the columns of x and y by name or number, like 2,3 or 2,3,4 with heights, got {found:?}"
+    )]
     NotTwo {
         /// The text.
         found: String,
@@ -51,8 +56,8 @@ pub enum ColumnsError {
     /// A number is 0.
     #[error("columns must be counted from 1, got 0")]
     Zero,
-    /// Both are the same.
-    #[error("x and y must be different columns, got {column} twice")]
+    /// Two of them are the same.
+    #[error("x, y and z must be different columns, got {column} twice")]
     Same {
         /// The column.
         column: Column,
@@ -64,15 +69,21 @@ impl FromStr for Columns {
 
     fn from_str(text: &str) -> Result<Self, ColumnsError> {
         let not_two = || ColumnsError::NotTwo { found: text.to_owned() };
-        let (x, y) = text.split_once(',').ok_or_else(not_two)?;
+        let mut parts = text.split(',');
         let column = |text: &str| match (text.trim(), text.trim().parse::<usize>()) {
             ("", _) => Err(not_two()),
             (_, Ok(0)) => Err(ColumnsError::Zero),
             (_, Ok(number)) => Ok(Column::Number(number)),
             (name, Err(_)) => Ok(Column::Name(name.to_owned())),
         };
-        let columns = Self { x: column(x)?, y: column(y)? };
-        if columns.x == columns.y { Err(ColumnsError::Same { column: columns.x }) } else { Ok(columns) }
+        let mut next = || parts.next().map(column).transpose();
+        let (Some(x), Some(y), z, None) = (next()?, next()?, next()?, next()?) else {
+            return Err(not_two());
+        };
+        if x == y || z.as_ref() == Some(&x) {
+            return Err(ColumnsError::Same { column: x });
+        }
+        if z.as_ref() == Some(&y) { Err(ColumnsError::Same { column: y }) } else { Ok(Self { x, y, z }) }
     }
 }
 
@@ -112,6 +123,10 @@ pub struct TakenColumns {
     pub x: TakenColumn,
     /// That of y.
     pub y: TakenColumn,
+    /// That of heights, if there is one.
+    pub z: Option<TakenColumn>,
+    /// Whether heights are depths, of which the negative is taken.
+    pub depths: bool,
     /// Whether numbers had decimal commas.
     pub decimal_commas: bool,
 }
@@ -119,6 +134,9 @@ pub struct TakenColumns {
 impl fmt::Display for TakenColumns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "x = {}, y = {}", self.x, self.y)?;
+        if let Some(z) = &self.z {
+            write!(f, ", z = {}{z}", if self.depths { "-" } else { "" })?;
+        }
         if self.decimal_commas { write!(f, ", with decimal commas") } else { Ok(()) }
     }
 }
@@ -133,6 +151,10 @@ const PAIRS: [(&[&str], &[&str]); 4] = [
     (&["lon", "long", "lng", "longitude"], &["lat", "latitude"]),
     (&["rechtswert"], &["hochwert"]),
 ];
+
+/// Names of heights, and of depths.
+const HEIGHTS: [&[&str]; 2] =
+    [&["z", "elev", "elevation", "alt", "altitude", "height", "hoehe", "h\u{f6}he"], &["depth", "tiefe"]];
 
 /// What may stand around such a name without changing what it is.
 const AROUND: [&str; 29] = [
@@ -172,6 +194,12 @@ const IDS: [&str; 9] = ["id", "fid", "oid", "objectid", "gid", "index", "nr", "n
 
 /// What a name says of a column: the pair that it belongs to, and whether it is its x.
 fn meaning(name: &str) -> Option<(usize, bool)> {
+    let word = core(name)?;
+    of_word(&word).or_else(|| of_word(without_around(&word)?))
+}
+
+/// The one word of a name that is not around others, in lower case.
+fn core(name: &str) -> Option<String> {
     let name = name.to_lowercase();
     let plain = name.split(['[', '(']).next().unwrap_or_default();
     let words = plain.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
@@ -179,7 +207,24 @@ fn meaning(name: &str) -> Option<(usize, bool)> {
     let (word, None) = (core.next()?, core.next()) else {
         return None;
     };
-    of_word(word).or_else(|| of_word(without_around(word)?))
+    Some(word.to_owned())
+}
+
+/// Whether a name is one of depths; `None` if it is not one of heights either.
+pub(crate) fn names_depths(name: &str) -> Option<bool> {
+    let word = core(name)?;
+    let word = [Some(word.as_str()), without_around(&word)];
+    let kind = HEIGHTS.iter().position(|names| word.iter().flatten().any(|word| names.contains(word)));
+    kind.map(|kind| kind == 1)
+}
+
+/// The column of heights, if just one name is that of heights, or just one is z.
+pub(crate) fn heights_by_name(names: &[&str]) -> Option<usize> {
+    let one = |is: &dyn Fn(&str) -> bool| {
+        let mut all = (0..names.len()).filter(|&i| is(names[i]));
+        all.next().filter(|_| all.next().is_none())
+    };
+    one(&|name| names_depths(name).is_some()).or_else(|| one(&|name| name.eq_ignore_ascii_case("z")))
 }
 
 fn of_word(word: &str) -> Option<(usize, bool)> {
@@ -288,17 +333,51 @@ mod tests {
     }
 
     #[test]
+    fn heights_have_names_too() {
+        for (names, column, depths) in [
+            (&["x", "y", "z"][..], Some(2), false),
+            (&["x", "y", "Elevation (m)"], Some(2), false),
+            (&["POINT_Z", "POINT_X", "POINT_Y"], Some(0), false),
+            (&["depth", "lat", "lon"], Some(0), true),
+            (&["x", "y", "z", "depth"], Some(2), false),
+            (&["x", "y", "height", "depth"], None, false),
+            (&["x", "y", "zone"], None, false),
+        ] {
+            assert_eq!(heights_by_name(names), column, "{names:?}");
+            assert!(column.is_none_or(|column| names_depths(names[column]) == Some(depths)), "{names:?}");
+        }
+    }
+
+    #[test]
     fn columns_are_asked_for_by_name_or_number() {
         let columns: Columns = " 2 , Nord ".parse().unwrap();
-        assert_eq!(columns, Columns { x: Column::Number(2), y: Column::Name("Nord".to_owned()) });
+        assert_eq!(columns, Columns { x: Column::Number(2), y: Column::Name("Nord".to_owned()), z: None });
         for (bad, message) in [
-            ("", "expected the columns of x and y by name or number, like 2,3, got \"\""),
-            ("2", "expected the columns of x and y by name or number, like 2,3, got \"2\""),
-            (",2", "expected the columns of x and y by name or number, like 2,3, got \",2\""),
-            ("1,", "expected the columns of x and y by name or number, like 2,3, got \"1,\""),
+            (
+                "",
+                "expected the columns of x and y by name or number, like 2,3 or 2,3,4 with heights, got \"\"",
+            ),
+            (
+                "2",
+                "expected the columns of x and y by name or number, like 2,3 or 2,3,4 with heights, got \"2\"",
+            ),
+            (
+                ",2",
+                "expected the columns of x and y by name or number, like 2,3 or 2,3,4 with heights, got \",2\"",
+            ),
+            (
+                "1,",
+                "expected the columns of x and y by name or number, like 2,3 or 2,3,4 with heights, got \"1,\"",
+            ),
+            (
+                "1,2,3,4",
+                "expected the columns of x and y by name or number, like 2,3 or 2,3,4 with heights, got \"1,2,3,4\"",
+            ),
+            ("1,2,1", "x, y and z must be different columns, got 1 twice"),
+            ("1,2,2", "x, y and z must be different columns, got 2 twice"),
             ("0,1", "columns must be counted from 1, got 0"),
-            ("2,2", "x and y must be different columns, got 2 twice"),
-            ("a,a", "x and y must be different columns, got a twice"),
+            ("2,2", "x, y and z must be different columns, got 2 twice"),
+            ("a,a", "x, y and z must be different columns, got a twice"),
         ] {
             assert_eq!(bad.parse::<Columns>().unwrap_err().to_string(), message);
         }

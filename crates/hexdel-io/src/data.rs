@@ -33,6 +33,8 @@ pub struct MeshData {
     pub input_indices: Option<Vec<Option<u32>>>,
     /// A marker of each vertex.
     pub vertex_markers: Option<Vec<i32>>,
+    /// The height of each vertex, upwards.
+    pub heights: Option<Vec<f64>>,
     /// The attribute of each triangle's region.
     pub regions: Option<Vec<f64>>,
     /// The edges that have markers.
@@ -52,6 +54,7 @@ impl MeshData {
         MeshView {
             input_indices: self.input_indices.as_deref(),
             vertex_markers: self.vertex_markers.as_deref(),
+            heights: self.heights.as_deref(),
             regions: self.regions.as_deref(),
             marked_edges: self.marked_edges.as_deref(),
             promised: self.promised.as_ref(),
@@ -67,6 +70,10 @@ impl MeshData {
             let p = vertices[index];
             let found = if p.x.is_finite() { p.y } else { p.x }.to_string();
             let (file, index) = (file.to_owned(), index as u64);
+            return Err(ReadError::NonFinite { file, line: 0, column: 0, item: "point", index, found });
+        }
+        if let Some((index, bad)) = self.heights.iter().flatten().enumerate().find(|(_, z)| !z.is_finite()) {
+            let (file, index, found) = (file.to_owned(), index as u64, bad.to_string());
             return Err(ReadError::NonFinite { file, line: 0, column: 0, item: "point", index, found });
         }
         let ends = self.marked_edges.iter().flatten().flat_map(|edge| &edge.ends);
@@ -91,6 +98,7 @@ impl MeshData {
         for (array, expected, found) in [
             ("input indices", vertices.len(), self.input_indices.as_ref().map(Vec::len)),
             ("vertex markers", vertices.len(), self.vertex_markers.as_ref().map(Vec::len)),
+            ("heights", vertices.len(), self.heights.as_ref().map(Vec::len)),
             ("regions", triangles, self.regions.as_ref().map(Vec::len)),
         ] {
             if let Some(found) = found
@@ -114,6 +122,8 @@ pub(crate) struct MeshDocument {
     #[serde(default)]
     vertex_markers: Option<Vec<i32>>,
     #[serde(default)]
+    heights: Option<Vec<f64>>,
+    #[serde(default)]
     regions: Option<Vec<f64>>,
     #[serde(default)]
     marked_edges: Option<Vec<MarkedEdge>>,
@@ -127,6 +137,7 @@ impl MeshDocument {
             mesh: TriMesh { vertices: self.vertices, triangles: self.triangles },
             input_indices: self.input_indices,
             vertex_markers: self.vertex_markers,
+            heights: self.heights,
             regions: self.regions,
             marked_edges: self.marked_edges,
             promised: self.promised,

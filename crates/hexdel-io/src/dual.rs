@@ -1,5 +1,5 @@
-//! The Voronoi dual of a mesh: cells as polygons in `.vtu`, and Triangle's
-//! `.v.node` and `.v.edge`.
+//! The Voronoi dual of a mesh: cells as polygons in `.vtu`, Triangle's `.v.node` and
+//! `.v.edge`, and which writer is for which other format.
 //!
 //! In `.vtu` each vertex of the mesh is one polygon, its cell cut off at the
 //! boundary; corners that cells share are one point. Cell data are `vertex`, the
@@ -18,6 +18,7 @@ use crate::error::WriteError;
 use crate::format::DualFormat;
 use crate::text::TextWriter;
 use crate::vtu::{self, array};
+use crate::{disv, mpas, polygons_out, ugrid};
 
 /// VTK's number of the cell type polygon.
 const VTK_POLYGON: u8 = 7;
@@ -33,47 +34,57 @@ const VTK_POLYGON: u8 = 7;
 /// # Errors
 ///
 /// [`WriteError::UnknownExtension`], [`WriteError::NotAFile`] and
-/// [`WriteError::Io`].
+/// [`WriteError::Io`]; for NetCDF also [`WriteError::Empty`] and [`WriteError::TooMany`].
 ///
 /// # Complexity
 ///
-/// Linear in the size of the mesh; about 200 bytes per vertex for `.vtu`.
+/// Linear in the size of the mesh; about 200 bytes per vertex for formats with cells that share
+/// corners, and the file in memory for NetCDF.
 pub fn write_dual(path: impl AsRef<Path>, mesh: &TriMesh, dual: &Voronoi<'_>) -> Result<(), WriteError> {
     let path = path.as_ref();
-    match DualFormat::from_path(path) {
-        Some(DualFormat::Vtu) => {
-            let mut draft = Draft::create(path)?;
-            draft.write(|out| write_vtu(out, mesh, dual))?;
-            draft.publish()
+    let file = path.display().to_string();
+    let Some(format) = DualFormat::from_path(path) else {
+        return Err(WriteError::UnknownExtension { file, known: DualFormat::EXTENSIONS });
+    };
+    let write: Writer = match format {
+        DualFormat::Vtu => write_vtu,
+        DualFormat::GeoJson => polygons_out::write_dual_geojson,
+        DualFormat::Wkt => polygons_out::write_dual_wkt,
+        DualFormat::Disv => disv::write_disv,
+        DualFormat::Ugrid | DualFormat::Mpas => {
+            ugrid::check(mesh, &file)?;
+            if format == DualFormat::Mpas { mpas::write_mpas } else { ugrid::write_dual_ugrid }
         }
-        Some(DualFormat::Voronoi) => {
+        DualFormat::Voronoi => {
             let mut nodes = Draft::create(&path.with_extension("node"))?;
             let mut edges = Draft::create(&path.with_extension("edge"))?;
             nodes.write(|out| write_node(out, dual))?;
             edges.write(|out| write_edge(out, mesh, dual))?;
             nodes.publish()?;
-            edges.publish()
+            return edges.publish();
         }
-        None => {
-            let file = path.display().to_string();
-            Err(WriteError::UnknownExtension { file, known: DualFormat::EXTENSIONS })
-        }
-    }
+    };
+    let mut draft = Draft::create(path)?;
+    draft.write(|out| write(out, mesh, dual))?;
+    draft.publish()
 }
 
+/// What writes a format that is a single file.
+type Writer = fn(&mut dyn Write, &TriMesh, &Voronoi<'_>) -> io::Result<()>;
+
 /// The cells of all vertices that have one.
-struct Cells {
-    corners: Vec<DVec2>,
+pub(crate) struct Cells {
+    pub(crate) corners: Vec<DVec2>,
     /// Indices of corners, cell after cell.
     rings: Vec<i64>,
     /// For each cell the number of indices up to its end.
     ends: Vec<i64>,
     /// The vertex of each cell.
-    vertices: Vec<i64>,
+    pub(crate) vertices: Vec<i64>,
 }
 
 impl Cells {
-    fn of(mesh: &TriMesh, dual: &Voronoi<'_>) -> Self {
+    pub(crate) fn of(mesh: &TriMesh, dual: &Voronoi<'_>) -> Self {
         let mut cells =
             Self { corners: Vec::new(), rings: Vec::new(), ends: Vec::new(), vertices: Vec::new() };
         // Only looked up, never iterated.
@@ -94,6 +105,14 @@ impl Cells {
             cells.vertices.push(vertex as i64);
         }
         cells
+    }
+
+    /// The vertex of each cell, with the corners of the cell, counter-clockwise.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &[i64])> {
+        (0..self.vertices.len()).map(|i| {
+            let start = i.checked_sub(1).map_or(0, |before| self.ends[before]);
+            (self.vertices[i] as usize, &self.rings[start as usize..self.ends[i] as usize])
+        })
     }
 }
 

@@ -442,7 +442,7 @@ pub enum WriteError {
         file: String,
         /// The format.
         format: &'static str,
-        /// "attribute" or "region".
+        /// "attribute", "region" or "height".
         item: &'static str,
         /// Its position in the array.
         index: usize,
@@ -526,6 +526,30 @@ pub enum WriteError {
     NoRegions {
         /// The file.
         file: String,
+    },
+    /// The format has no meshes without triangles, or without vertices.
+    #[error("{file}: {format} cannot hold a mesh without {item}")]
+    Empty {
+        /// The file.
+        file: String,
+        /// The format.
+        format: &'static str,
+        /// "vertices" or "triangles".
+        item: &'static str,
+    },
+    /// There are more items than the format has numbers for.
+    #[error("{file}: {format} cannot hold {count} {item}, it ends at {limit}")]
+    TooMany {
+        /// The file.
+        file: String,
+        /// The format.
+        format: &'static str,
+        /// "vertices" or "triangles".
+        item: &'static str,
+        /// How many there are.
+        count: usize,
+        /// How many it can hold.
+        limit: usize,
     },
     /// An array has neither one entry per item nor none.
     #[error("{file}: {found} {array} instead of {expected}")]

@@ -18,7 +18,8 @@ pub enum PointFormat {
     Csv,
     /// A table with tabs and a header, `.tsv`.
     Tsv,
-    /// `GeoJSON` (RFC 7946), `.geojson`, or a sequence of it, `.geojsonl`. Read only.
+    /// `GeoJSON` (RFC 7946), `.geojson`, or a sequence of it, `.geojsonl`, `.geojsons`, `.ndjson`.
+    /// Read only.
     GeoJson,
     /// Well-known text, `.wkt`. Read only.
     Wkt,
@@ -29,6 +30,10 @@ pub enum PointFormat {
     CgShop,
     /// Rusty Object Notation of a [`Pslg`](hexdel_geom::Pslg), `.ron`.
     Ron,
+    /// The nodes of a mesh of SMS, `.2dm`, with their heights. Read only.
+    TwoDm,
+    /// The nodes of a grid of ADCIRC, `fort.14`, with their heights. Read only.
+    Fort14,
 }
 
 /// Names of formats, with what they name.
@@ -45,10 +50,14 @@ const POINT_NAMES: Names<PointFormat> = &[
     ("pts", PointFormat::Table),
     ("geojson", PointFormat::GeoJson),
     ("geojsonl", PointFormat::GeoJson),
+    ("geojsons", PointFormat::GeoJson),
+    ("ndjson", PointFormat::GeoJson),
     ("wkt", PointFormat::Wkt),
     ("json", PointFormat::Json),
     ("cgshop", PointFormat::CgShop),
     ("ron", PointFormat::Ron),
+    ("2dm", PointFormat::TwoDm),
+    ("14", PointFormat::Fort14),
 ];
 
 const MESH_NAMES: Names<MeshFormat> = &[
@@ -67,6 +76,13 @@ const MESH_NAMES: Names<MeshFormat> = &[
     ("medit", MeshFormat::Medit),
     ("json", MeshFormat::Json),
     ("ron", MeshFormat::Ron),
+    ("geojson", MeshFormat::GeoJson),
+    ("wkt", MeshFormat::Wkt),
+    ("2dm", MeshFormat::TwoDm),
+    ("14", MeshFormat::Fort14),
+    ("nc", MeshFormat::Ugrid),
+    ("vtk", MeshFormat::Vtk),
+    ("stl", MeshFormat::Stl),
     ("svg", MeshFormat::Svg),
     #[cfg(feature = "png")]
     ("png", MeshFormat::Png),
@@ -77,8 +93,8 @@ impl PointFormat {
     pub const EXTENSIONS: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron";
 
     /// The extensions that points are read from, for messages.
-    pub const READABLE: &str =
-        ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .geojsonl, .wkt, .json, .ron";
+    pub const READABLE: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .geojsonl, .geojsons, .ndjson, \
+        .wkt, .json, .ron, .2dm, .14";
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
@@ -122,7 +138,7 @@ impl PointFormat {
 
     /// Whether the format can be written.
     pub fn is_written(self) -> bool {
-        !matches!(self, Self::GeoJson | Self::Wkt | Self::CgShop)
+        !matches!(self, Self::GeoJson | Self::Wkt | Self::CgShop | Self::TwoDm | Self::Fort14)
     }
 }
 
@@ -155,6 +171,22 @@ pub enum MeshFormat {
     Json,
     /// Rusty Object Notation of a [`TriMesh`](hexdel_geom::TriMesh), `.ron`.
     Ron,
+    /// Triangles as polygons in `GeoJSON` (RFC 7946), `.geojson`. Written only, as what is read from
+    /// it is a graph.
+    GeoJson,
+    /// Triangles as polygons in well-known text, `.wkt`. Written only, as what is read from it is a
+    /// graph.
+    Wkt,
+    /// The mesh format of SMS, `.2dm`.
+    TwoDm,
+    /// ADCIRC's grid, `fort.14` or any `.14`.
+    Fort14,
+    /// UGRID in NetCDF-3, `.nc`. Written only.
+    Ugrid,
+    /// VTK's legacy format in text, `.vtk`. Written only.
+    Vtk,
+    /// Stereolithography in text, `.stl`. Written only.
+    Stl,
     /// A picture, `.svg`. Written only.
     Svg,
     /// A picture, `.png`. Written only, with the feature `png`.
@@ -165,16 +197,18 @@ pub enum MeshFormat {
 impl MeshFormat {
     /// The extensions that meshes are written to, for messages.
     pub const EXTENSIONS: &str = if cfg!(feature = "png") {
-        ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg, .png"
+        ".node, .ele, .edge, .neigh, .poly, .vtu, .vtk, .msh, .obj, .off, .mesh, .stl, .2dm, .14, .nc, .geojson, \
+         .wkt, .json, .ron, .svg, .png"
     } else {
-        ".node, .ele, .edge, .neigh, .poly, .vtu, .msh, .obj, .off, .mesh, .json, .ron, .svg"
+        ".node, .ele, .edge, .neigh, .poly, .vtu, .vtk, .msh, .obj, .off, .mesh, .stl, .2dm, .14, .nc, .geojson, \
+         .wkt, .json, .ron, .svg"
     };
 
     /// The extensions of pictures, for messages.
     pub const PICTURES: &str = if cfg!(feature = "png") { ".svg, .png" } else { ".svg" };
 
     /// The extensions that meshes are read from, for messages.
-    pub const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .json, .ron";
+    pub const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron";
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
@@ -199,7 +233,18 @@ impl MeshFormat {
 
     /// Whether the format can be read.
     pub fn is_read(self) -> bool {
-        !matches!(self, Self::Edge | Self::Neigh | Self::Poly) && !self.is_picture()
+        let is_written_only = matches!(
+            self,
+            Self::Edge
+                | Self::Neigh
+                | Self::Poly
+                | Self::GeoJson
+                | Self::Wkt
+                | Self::Ugrid
+                | Self::Vtk
+                | Self::Stl
+        );
+        !is_written_only && !self.is_picture()
     }
 
     /// Whether it is a picture.
@@ -221,19 +266,33 @@ pub enum DualFormat {
     Vtu,
     /// Triangle's pair of `.v.node` and `.v.edge`; either name stands for both.
     Voronoi,
+    /// Cells as polygons in `GeoJSON` (RFC 7946), `.geojson`.
+    GeoJson,
+    /// Cells as polygons in well-known text, `.wkt`.
+    Wkt,
+    /// Cells as a discretisation by vertices of MODFLOW 6, `.disv`.
+    Disv,
+    /// Cells as the faces of UGRID in NetCDF-3, `.nc`.
+    Ugrid,
+    /// Cells and triangles as the input of MPAS's mesh converter in NetCDF-3, `.mpas.nc`.
+    Mpas,
 }
 
 impl DualFormat {
     /// The extensions that duals are written to, for messages.
-    pub const EXTENSIONS: &str = ".vtu, .v.node, .v.edge";
+    pub const EXTENSIONS: &str = ".vtu, .v.node, .v.edge, .geojson, .wkt, .disv, .nc, .mpas.nc";
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
-        match extension(path)?.to_ascii_lowercase().as_str() {
-            "vtu" => Some(Self::Vtu),
-            "node" | "edge" if extension(Path::new(path.file_stem()?))?.eq_ignore_ascii_case("v") => {
-                Some(Self::Voronoi)
-            }
+        let before = extension(Path::new(path.file_stem()?));
+        match (extension(path)?.as_str(), before.as_deref()) {
+            ("vtu", _) => Some(Self::Vtu),
+            ("node" | "edge", Some("v")) => Some(Self::Voronoi),
+            ("geojson", _) => Some(Self::GeoJson),
+            ("wkt", _) => Some(Self::Wkt),
+            ("disv", _) => Some(Self::Disv),
+            ("nc", Some("mpas")) => Some(Self::Mpas),
+            ("nc", _) => Some(Self::Ugrid),
             _ => None,
         }
     }

@@ -1,7 +1,7 @@
 //! `GeoJSON` (RFC 7946): reading features and bare geometries.
 //!
-//! All geometries are read; further coordinates such as heights, properties and other
-//! members are left. A text may be a sequence of objects, one a line or each after a record
+//! All geometries are read, with the height that a third coordinate is; further coordinates,
+//! properties and other members are left. A text may be a sequence of objects, one a line or each after a record
 //! separator (RFC 8142). Features are numbered from 1 in the order of the file, null
 //! geometries included; geometries of a collection that is no feature count each as
 //! one. What becomes of them is said in [`shapes`](crate::shapes).
@@ -10,16 +10,16 @@
 //! crate `geojson` keeps every property and foreign member as a tree, and its faults
 //! beyond JSON's own grammar have no lines, hence these few types.
 
-use hexdel_geom::{DVec2, Pslg};
+use hexdel_geom::DVec2;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
 
 use crate::error::ReadError;
 use crate::json::{Source, sequence};
-use crate::shapes::{GraphBuilder, Shape};
+use crate::shapes::{Features, GraphBuilder, Place, Shape};
 
 /// Reads a text.
-pub(crate) fn read_geojson(source: &Source<'_>) -> Result<Pslg, ReadError> {
+pub(crate) fn read_geojson(source: &Source<'_>) -> Result<Features, ReadError> {
     let mut builder = GraphBuilder::new(source.file);
     sequence(source, |object| {
         let features = match object {
@@ -126,11 +126,11 @@ fn shape(kind: Kind, coordinates: Nested) -> Result<Shape, &'static str> {
     })
 }
 
-fn rings(nested: Nested) -> Result<Vec<Vec<DVec2>>, &'static str> {
+fn rings(nested: Nested) -> Result<Vec<Vec<Place>>, &'static str> {
     list(nested)?.into_iter().map(positions).collect()
 }
 
-fn positions(nested: Nested) -> Result<Vec<DVec2>, &'static str> {
+fn positions(nested: Nested) -> Result<Vec<Place>, &'static str> {
     let position = |nested| match nested {
         Nested::Position(p) => Ok(p),
         Nested::List(_) => Err("coordinates are nested more deeply than the geometry's type says"),
@@ -147,7 +147,7 @@ fn list(nested: Nested) -> Result<Vec<Nested>, &'static str> {
 
 /// Coordinates, whatever the kind of their geometry.
 enum Nested {
-    Position(DVec2),
+    Position(Place),
     List(Vec<Nested>),
 }
 
@@ -194,8 +194,9 @@ impl<'de> Visitor<'de> for NumberOrList {
             Some(Item::Number(x)) => {
                 let y = items.next_element()?;
                 let y = y.ok_or_else(|| A::Error::custom("expected a position of two numbers"))?;
+                let height = items.next_element::<Option<f64>>()?.flatten();
                 while items.next_element::<IgnoredAny>()?.is_some() {}
-                return Ok(Item::List(Nested::Position(DVec2::new(x, y))));
+                return Ok(Item::List(Nested::Position(Place { at: DVec2::new(x, y), height })));
             }
         };
         let mut list = vec![first];
@@ -215,9 +216,23 @@ impl<'de> Deserialize<'de> for Item {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hexdel_geom::Pslg;
 
     fn read(text: &str) -> Result<Pslg, ReadError> {
-        read_geojson(&Source { bytes: text.as_bytes(), file: "f" })
+        read_geojson(&Source { bytes: text.as_bytes(), file: "f" }).map(|features| features.pslg)
+    }
+
+    #[test]
+    fn third_coordinates_are_heights() {
+        let heights = |coordinates: &str| {
+            let text = format!("{{\"type\":\"MultiPoint\",\"coordinates\":{coordinates}}}");
+            read_geojson(&Source { bytes: text.as_bytes(), file: "f" })?.heights("f")
+        };
+        assert_eq!(heights("[[1,2,3],[4,5,-6.5,9]]").unwrap(), Some(vec![3.0, -6.5]));
+        assert_eq!(heights("[[1,2,0],[4,5,null]]").unwrap(), None);
+        assert!(heights("[[1,2,3],[4,5]]").is_err());
+        let error = heights("[[1,2,\"3\"]]").unwrap_err().to_string();
+        assert!(error.contains("invalid type: string"), "{error}");
     }
 
     #[test]

@@ -30,6 +30,7 @@ use crate::error::{ReadError, WriteError};
 use crate::geojson::read_geojson;
 use crate::json::{Source, first, parse};
 use crate::mend::Faults;
+use crate::shapes::Features;
 use crate::text::TextWriter;
 
 /// What tells the kinds of JSON apart.
@@ -42,14 +43,14 @@ struct Kinds {
 }
 
 /// Reads a graph of our own, `GeoJSON` or an instance of CG:SHOP, whatever it is.
-pub(crate) fn read_any_json(source: &Source<'_>) -> Result<Pslg, ReadError> {
+pub(crate) fn read_any_json(source: &Source<'_>) -> Result<Features, ReadError> {
     let kinds: Kinds = first(source)?;
     if kinds.points_x.is_some() {
-        read_cgshop(source)
+        read_cgshop(source).map(Features::from)
     } else if kinds.r#type.is_some() && kinds.points.is_none() {
         read_geojson(source)
     } else {
-        parse::<GraphDocument>(source)?.graph(source.file)
+        parse::<GraphDocument>(source)?.graph(source.file).map(Features::from)
     }
 }
 
@@ -257,7 +258,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Pslg, ReadError> {
-        read_any_json(&Source { bytes: text.as_bytes(), file: "f" })
+        read_any_json(&Source { bytes: text.as_bytes(), file: "f" }).map(|features| features.pslg)
     }
 
     #[test]

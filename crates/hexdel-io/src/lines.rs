@@ -84,6 +84,22 @@ impl<R: BufRead> Lines<R> {
         Ok(None)
     }
 
+    /// The next such line, which is one of `expected` rows of a section, after `found` of them.
+    pub(crate) fn due_row(
+        &mut self,
+        section: &'static str,
+        found: u64,
+        expected: u64,
+    ) -> Result<Row<'_>, ReadError> {
+        let (file, line) = (self.file.clone(), self.number);
+        self.next_row()?.ok_or(ReadError::Truncated { file, line, section, expected, found })
+    }
+
+    /// Passes over a line, whatever is on it.
+    pub(crate) fn skip_line(&mut self) -> Result<(), ReadError> {
+        if self.fill()? { self.text().map(drop) } else { Ok(()) }
+    }
+
     fn row(&self) -> Result<Row<'_>, ReadError> {
         let whole = self.text()?;
         let mut text = whole;

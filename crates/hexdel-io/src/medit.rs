@@ -30,14 +30,14 @@ const LISTS: [(&str, u32); 6] = [
     ("SubDomainFromMesh", 4),
 ];
 
-/// Finds a region that is no integer and hence no reference.
-pub(crate) fn check_regions(view: &MeshView<'_>, file: &str) -> Result<(), WriteError> {
+/// Finds a region that is no integer and hence no reference, nor a material of `.2dm`.
+pub(crate) fn check_regions(view: &MeshView<'_>, format: &'static str, file: &str) -> Result<(), WriteError> {
     let fits = |region: f64| f64::from(region as i32) == region;
     match view.regions.unwrap_or(&[]).iter().position(|&region| !fits(region)) {
         None => Ok(()),
         Some(index) => Err(WriteError::Unrepresentable {
             file: file.to_owned(),
-            format: "Medit's format",
+            format,
             item: "region of triangle",
             index,
             found: view.regions.unwrap_or(&[])[index],
@@ -201,8 +201,7 @@ impl Parts {
             vertex_markers: self.markers.iter().any(|&m| m != 0).then_some(self.markers),
             regions: self.regions.iter().any(|&r| r != 0.0).then_some(self.regions),
             marked_edges: (!self.edges.is_empty()).then_some(self.edges),
-            input_indices: None,
-            promised: None,
+            ..MeshData::default()
         })
     }
 }

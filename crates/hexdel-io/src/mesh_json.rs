@@ -7,6 +7,7 @@
 //!  "triangles": [[0, 1, 2], ..],
 //!  "input_indices": [0, null, ..],                      if known
 //!  "vertex_markers": [1, ..],                           likewise
+//!  "heights": [2.5, ..],                                likewise
 //!  "regions": [1.0, ..],                                likewise
 //!  "marked_edges": [{"ends": [0, 1], "marker": 1}, ..], likewise
 //!  "promised": {"near": .., "far": .., "domain": "inside", "exempt": [3, ..]},
@@ -47,6 +48,12 @@ pub(crate) fn write_json(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result
         text.text("],\n\"vertex_markers\": [");
         text.rows(markers, |text, marker| {
             text.integer(*marker);
+        })?;
+    }
+    if let Some(heights) = view.heights {
+        text.text("],\n\"heights\": [");
+        text.rows(heights, |text, height| {
+            text.number(*height);
         })?;
     }
     if let Some(regions) = view.regions {

@@ -9,6 +9,7 @@
 //!     triangles: [(0, 1, 2), ..],
 //!     input_indices: Some([Some(0), None, ..]),  if known
 //!     vertex_markers: Some([..]),                likewise
+//!     heights: Some([..]),                       likewise
 //!     regions: Some([..]),                       likewise
 //!     marked_edges: Some([(ends: (0, 1), marker: 1), ..]),
 //!     promised: Some(..),                        likewise
@@ -44,6 +45,8 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     vertex_markers: Option<&'a [i32]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    heights: Option<&'a [f64]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     regions: Option<&'a [f64]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     marked_edges: Option<&'a [MarkedEdge]>,
@@ -62,6 +65,7 @@ pub(crate) fn write_ron(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
             triangles: &view.mesh.triangles,
             input_indices: view.input_indices,
             vertex_markers: view.vertex_markers,
+            heights: view.heights,
             regions: view.regions,
             marked_edges: view.marked_edges,
             promised: view.promised,

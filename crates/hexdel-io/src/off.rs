@@ -47,7 +47,7 @@ pub(crate) fn read_off(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
     mesh.vertices.reserve(vertices.min(MAX_RESERVE) as usize);
     let mut faults = Faults::default();
     for index in 0..vertices {
-        let Some(row) = faults.note(row(&mut lines, "vertices", index, vertices))? else { break };
+        let Some(row) = faults.note(lines.due_row("vertices", index, vertices))? else { break };
         let mut fields = row.fields();
         let vertex = fields.flat_position("point", index);
         let vertex = vertex.and_then(|vertex| if plain { fields.end().map(|()| vertex) } else { Ok(vertex) });
@@ -55,7 +55,7 @@ pub(crate) fn read_off(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
     }
     mesh.triangles.reserve(triangles.min(MAX_RESERVE) as usize);
     for index in 0..triangles {
-        let Some(row) = faults.note(row(&mut lines, "faces", index, triangles))? else { break };
+        let Some(row) = faults.note(lines.due_row("faces", index, triangles))? else { break };
         let corners = triangle(&mut row.fields(), vertices);
         mesh.triangles.extend(faults.note(corners)?);
     }
@@ -68,7 +68,7 @@ pub(crate) fn read_off(reader: impl BufRead, file: &str) -> Result<MeshData, Rea
 
 /// Whether vertices are coordinates only, and the numbers of vertices and faces.
 fn header<R: BufRead>(lines: &mut Lines<R>) -> Result<(bool, [u64; 2]), ReadError> {
-    let mut fields = row(lines, "header lines", 0, 1)?.fields();
+    let mut fields = lines.due_row("header lines", 0, 1)?.fields();
     let word = fields.peek();
     let keyword = word.filter(|word| word.ends_with("OFF"));
     // Normals, colours, texture coordinates, in this order, each if its letter is
@@ -82,7 +82,7 @@ fn header<R: BufRead>(lines: &mut Lines<R>) -> Result<(bool, [u64; 2]), ReadErro
                 return Err(unsupported(fields.row, "binary OFF"));
             }
             if fields.peek().is_none() {
-                fields = row(lines, "header lines", 0, 1)?.fields();
+                fields = lines.due_row("header lines", 0, 1)?.fields();
             }
         }
         Some(_) => return Err(unsupported(fields.row, "OFF of other than three dimensions")),
@@ -124,19 +124,6 @@ fn triangle(fields: &mut Fields<'_>, vertices: u64) -> Result<[VertexId; 3], Rea
     };
     // A colour may follow.
     Ok([corner()?, corner()?, corner()?])
-}
-
-fn row<'l, R: BufRead>(
-    lines: &'l mut Lines<R>,
-    section: &'static str,
-    found: u64,
-    expected: u64,
-) -> Result<Row<'l>, ReadError> {
-    let (file, line) = (lines.file().to_owned(), lines.number());
-    match lines.next_row()? {
-        Some(row) => Ok(row),
-        None => Err(ReadError::Truncated { file, line, section, expected, found }),
-    }
 }
 
 fn unsupported(row: Row<'_>, what: &str) -> ReadError {

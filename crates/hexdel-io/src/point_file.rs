@@ -7,13 +7,15 @@ use std::path::Path;
 use hexdel_geom::Pslg;
 
 use crate::columns::{Columns, TakenColumns};
+use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::format::PointFormat;
 use crate::json::{Source, slurp};
 use crate::lines::{Comments, Lines};
 use crate::mend::{Mends, ReadWarning};
 use crate::read::{beside, open};
-use crate::{geojson, graph_json, graph_ron, table, triangle, wkt};
+use crate::shapes::Features;
+use crate::{fort14, geojson, graph_json, graph_ron, table, triangle, twodm, wkt};
 
 /// Points, and segments, holes and regions if there are any, with what was found out
 /// about their file.
@@ -26,12 +28,34 @@ pub struct PointFile {
     pub warnings: Vec<ReadWarning>,
     /// Of a table, the columns that were taken.
     pub columns: Option<TakenColumns>,
+    /// Which of the attributes of points is their height, upwards, if the file says so: a column of
+    /// that name, third coordinates, or nodes with heights.
+    pub height_attribute: Option<usize>,
     /// The number of the first point: 0, or 1 in a file of Triangle's that counts from 1.
     pub first_number: u32,
     /// Of a `.poly` file, the line of each hole.
     pub hole_lines: Vec<u64>,
     /// Of a `.poly` file, the line of each region.
     pub region_lines: Vec<u64>,
+}
+
+impl PointFile {
+    /// Points with heights, if these are known.
+    fn with_heights(points: Pslg, heights: Option<Vec<f64>>) -> Self {
+        match heights {
+            None => Self { pslg: points, ..Self::default() },
+            Some(heights) => Self {
+                pslg: Pslg { point_attributes: heights, attributes_per_point: 1, ..points },
+                height_attribute: Some(0),
+                ..Self::default()
+            },
+        }
+    }
+
+    /// The vertices of a mesh.
+    fn of_nodes(data: MeshData) -> Self {
+        Self::with_heights(Pslg::from_points(data.mesh.vertices), data.heights)
+    }
 }
 
 /// Reads points and graphs, told which columns to take.
@@ -112,9 +136,6 @@ impl PointReader {
         format: PointFormat,
         name: &str,
     ) -> Result<PointFile, ReadError> {
-        let read_all = |read: fn(&Source<'_>) -> Result<Pslg, ReadError>, reader| {
-            read(&Source { bytes: &slurp(reader, name)?, file: name })
-        };
         let pslg = match format {
             PointFormat::Node => {
                 let mut mends = Mends::new(self.strict);
@@ -124,16 +145,36 @@ impl PointReader {
             }
             PointFormat::Poly => return self.poly(reader, name, |_| Err(elsewhere(name))),
             PointFormat::Table | PointFormat::Csv | PointFormat::Tsv => {
-                let (pslg, columns) = table::read_table(reader, name, self.columns.as_ref())?;
-                return Ok(PointFile { pslg, columns, ..PointFile::default() });
+                let (read, columns) = table::read_table(reader, name, self.columns.as_ref())?;
+                let file = self.features(read, name)?;
+                return Ok(PointFile { columns, ..file });
             }
-            PointFormat::Wkt => wkt::read_wkt(reader, name)?,
-            PointFormat::GeoJson => read_all(geojson::read_geojson, reader)?,
-            PointFormat::Json => read_all(graph_json::read_any_json, reader)?,
-            PointFormat::CgShop => read_all(graph_json::read_cgshop, reader)?,
-            PointFormat::Ron => read_all(graph_ron::read_graph_ron, reader)?,
+            PointFormat::Wkt => return self.features(wkt::read_wkt(reader, name)?, name),
+            PointFormat::GeoJson => {
+                return self.features(read_all(geojson::read_geojson, reader, name)?, name);
+            }
+            PointFormat::Json => {
+                return self.features(read_all(graph_json::read_any_json, reader, name)?, name);
+            }
+            PointFormat::CgShop => read_all(graph_json::read_cgshop, reader, name)?,
+            PointFormat::Ron => read_all(graph_ron::read_graph_ron, reader, name)?,
+            PointFormat::TwoDm => return Ok(PointFile::of_nodes(twodm::read_2dm(reader, name)?)),
+            PointFormat::Fort14 => return Ok(PointFile::of_nodes(fort14::read_fort14(reader, name)?)),
         };
         Ok(PointFile { pslg, ..PointFile::default() })
+    }
+
+    /// Points and polygons, with heights if all points have one.
+    fn features(&self, features: Features, name: &str) -> Result<PointFile, ReadError> {
+        let mut mends = Mends::new(false);
+        let heights = match features.heights(name) {
+            Ok(heights) => heights,
+            // Who asks for a graph alone does not ask for heights.
+            Err(_) if self.strict => None,
+            Err(fault) => mends.forgive("heights are left", || fault).map(|()| None)?,
+        };
+        let file = PointFile::with_heights(features.pslg, heights);
+        Ok(PointFile { warnings: mends.into_warnings(), ..file })
     }
 
     fn poly(
@@ -152,8 +193,17 @@ impl PointReader {
         let triangle::Poly { pslg, range, hole_lines, region_lines } =
             triangle::read_poly(reader, name, &mut mends, beside)?;
         let (warnings, first_number) = (mends.into_warnings(), range.first_number());
-        Ok(PointFile { pslg, warnings, columns: None, first_number, hole_lines, region_lines })
+        Ok(PointFile { pslg, warnings, first_number, hole_lines, region_lines, ..PointFile::default() })
     }
+}
+
+/// Reads what takes a text as a whole.
+fn read_all<T>(
+    read: fn(&Source<'_>) -> Result<T, ReadError>,
+    reader: impl BufRead,
+    name: &str,
+) -> Result<T, ReadError> {
+    read(&Source { bytes: &slurp(reader, name)?, file: name })
 }
 
 /// Whether a `.poly` file has its points in the `.node` beside it; so too if it cannot

@@ -15,7 +15,7 @@ use crate::json::{Source, parse, slurp};
 use crate::lines::BYTE_ORDER_MARK;
 use crate::mend::Mends;
 use crate::triangle::PointRange;
-use crate::{medit, mesh_json, mesh_ron, msh, obj, off, triangle, vtu_in};
+use crate::{fort14, medit, mesh_json, mesh_ron, msh, obj, off, triangle, twodm, vtu_in};
 
 /// Reads a mesh without what else its file knows, see [`read_mesh_data`].
 ///
@@ -79,6 +79,8 @@ pub fn read_mesh_from(reader: impl BufRead, format: MeshFormat, name: &str) -> R
         MeshFormat::Obj => obj::read_obj(reader, name),
         MeshFormat::Off => off::read_off(reader, name),
         MeshFormat::Medit => medit::read_medit(reader, name),
+        MeshFormat::TwoDm => twodm::read_2dm(reader, name),
+        MeshFormat::Fort14 => fort14::read_fort14(reader, name),
         MeshFormat::Json => mesh_json::read_json(reader, name),
         MeshFormat::Ron => mesh_ron::read_ron(&Source { bytes: &slurp(reader, name)?, file: name }),
         MeshFormat::NodeEle => Err(ReadError::TwoFiles { file: name.to_owned(), format: ".node/.ele" }),
@@ -87,7 +89,8 @@ pub fn read_mesh_from(reader: impl BufRead, format: MeshFormat, name: &str) -> R
 }
 
 /// Whether a text of JSON or RON is that of a mesh, with `triangles`, rather than of a
-/// graph. What it is like otherwise is left to the readers.
+/// graph. What it is like otherwise is left to the readers. Of other formats that are read, each
+/// text is that of a mesh.
 ///
 /// # Examples
 ///
@@ -101,7 +104,8 @@ pub fn holds_mesh(text: &[u8], format: MeshFormat) -> bool {
     let source = Source { bytes: text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text), file: "" };
     match format {
         MeshFormat::Ron => mesh_ron::parse_ron::<MeshProbe>(&source).is_ok(),
-        _ => parse::<MeshProbe>(&source).is_ok(),
+        MeshFormat::Json => parse::<MeshProbe>(&source).is_ok(),
+        other => other.is_read(),
     }
 }
 

@@ -6,6 +6,7 @@
 //!   so that a border drawn by two polygons is there once. Rings are closed.
 //! - Markers of points and segments are the number of the first feature that has
 //!   them, counted from 1.
+//! - The height of a point is the first that a geometry gives it.
 //! - Each polygon becomes a [`Polygon`] with the feature's number as attribute.
 //!
 //! Whether rings cross or polygons overlap is left to whoever meshes the graph.
@@ -19,20 +20,64 @@ use crate::error::ReadError;
 /// The most points, so that 32-bit indices reach all of them.
 const MAX_POINTS: usize = u32::MAX as usize;
 
+/// A position of a geometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) at: DVec2,
+    /// The third coordinate, if there is one.
+    pub(crate) height: Option<f64>,
+}
+
 /// A geometry.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
-    Points(Vec<DVec2>),
-    Line(Vec<DVec2>),
+    Points(Vec<Place>),
+    Line(Vec<Place>),
     /// The outer ring, then those of holes.
-    Polygon(Vec<Vec<DVec2>>),
+    Polygon(Vec<Vec<Place>>),
     Collection(Vec<Shape>),
+}
+
+/// What shapes become.
+#[derive(Debug)]
+pub(crate) struct Features {
+    pub(crate) pslg: Pslg,
+    /// The height of each point, the first that is given; empty if there are no shapes.
+    heights: Vec<Option<f64>>,
+}
+
+impl From<Pslg> for Features {
+    fn from(pslg: Pslg) -> Self {
+        Self { pslg, heights: Vec::new() }
+    }
+}
+
+impl Features {
+    /// Points alone, each of its own.
+    pub(crate) fn points(places: &[Place]) -> Self {
+        let pslg = Pslg::from_points(places.iter().map(|place| place.at).collect());
+        Self { pslg, heights: places.iter().map(|place| place.height).collect() }
+    }
+
+    /// The heights, if each point has one and they are not all 0; an error if only some have.
+    pub(crate) fn heights(&self, file: &str) -> Result<Option<Vec<f64>>, ReadError> {
+        let known: Vec<f64> = self.heights.iter().copied().flatten().collect();
+        if known.iter().all(|&z| z == 0.0) {
+            return Ok(None);
+        }
+        if known.len() == self.heights.len() {
+            return Ok(Some(known));
+        }
+        let (expected, found) = (self.heights.len() as u64, known.len() as u64);
+        Err(ReadError::Length { file: file.to_owned(), line: 0, array: "heights", expected, found })
+    }
 }
 
 /// Gathers shapes.
 pub(crate) struct GraphBuilder {
     file: String,
     pslg: Pslg,
+    heights: Vec<Option<f64>>,
     /// The index of each point, by its coordinates' bits.
     point_of: HashMap<[u64; 2], u32>,
     /// The index of each segment, by its ends, the smaller first.
@@ -46,6 +91,7 @@ impl GraphBuilder {
         Self {
             file: file.to_owned(),
             pslg: Pslg::default(),
+            heights: Vec::new(),
             point_of: HashMap::new(),
             segments: HashMap::new(),
             features: 0,
@@ -73,10 +119,13 @@ impl GraphBuilder {
         }
     }
 
-    fn point(&mut self, p: DVec2, line: u64) -> Result<u32, ReadError> {
+    fn point(&mut self, place: Place, line: u64) -> Result<u32, ReadError> {
+        let p = place.at;
         // Adding a positive zero turns -0.0 into 0.0 and keeps every other value.
         let key = [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()];
         if let Some(&index) = self.point_of.get(&key) {
+            let height = &mut self.heights[index as usize];
+            *height = height.or(place.height);
             return Ok(index);
         }
         if self.pslg.points.len() >= MAX_POINTS {
@@ -85,12 +134,13 @@ impl GraphBuilder {
         let index = self.pslg.points.len() as u32;
         self.point_of.insert(key, index);
         self.pslg.points.push(p);
+        self.heights.push(place.height);
         self.pslg.point_markers.push(self.features);
         Ok(index)
     }
 
     /// Adds the segments of a path, and says which they are.
-    fn path(&mut self, points: &[DVec2], line: u64) -> Result<Vec<u32>, ReadError> {
+    fn path(&mut self, points: &[Place], line: u64) -> Result<Vec<u32>, ReadError> {
         let mut segments = Vec::with_capacity(points.len());
         let mut before = None;
         for &p in points {
@@ -115,10 +165,11 @@ impl GraphBuilder {
         Some(segment)
     }
 
-    fn polygon(&mut self, mut rings: Vec<Vec<DVec2>>, line: u64) -> Result<(), ReadError> {
+    fn polygon(&mut self, mut rings: Vec<Vec<Place>>, line: u64) -> Result<(), ReadError> {
         let mut polygon = Polygon { attribute: f64::from(self.features), ..Polygon::default() };
         for ring in &mut rings {
-            if ring.first() != ring.last() {
+            let [first, last] = [ring.first(), ring.last()].map(|place| place.map(|place| place.at));
+            if first != last {
                 ring.push(ring[0]);
             }
             polygon.rings.push(self.path(ring, line)?);
@@ -129,12 +180,12 @@ impl GraphBuilder {
         Ok(())
     }
 
-    /// The graph.
-    pub(crate) fn finish(mut self) -> Pslg {
+    /// The graph, with its heights.
+    pub(crate) fn finish(mut self) -> Features {
         if self.pslg.segments.is_empty() {
             self.pslg.segment_markers.clear();
         }
-        self.pslg
+        Features { pslg: self.pslg, heights: self.heights }
     }
 
     fn too_many(&self, section: &'static str, line: u64, limit: u64) -> ReadError {
@@ -146,11 +197,15 @@ impl GraphBuilder {
 mod tests {
     use super::*;
 
-    fn ring(corners: &[(i32, i32)]) -> Vec<DVec2> {
-        corners.iter().map(|&(x, y)| DVec2::new(f64::from(x), f64::from(y))).collect()
+    fn ring(corners: &[(i32, i32)]) -> Vec<Place> {
+        corners.iter().map(|&(x, y)| place(DVec2::new(f64::from(x), f64::from(y)))).collect()
     }
 
-    fn square(x: i32, y: i32, side: i32) -> Vec<DVec2> {
+    fn place(at: DVec2) -> Place {
+        Place { at, height: None }
+    }
+
+    fn square(x: i32, y: i32, side: i32) -> Vec<Place> {
         ring(&[(x, y), (x + side, y), (x + side, y + side), (x, y + side), (x, y)])
     }
 
@@ -159,7 +214,7 @@ mod tests {
         for shape in features {
             builder.feature(shape, 1).unwrap();
         }
-        let pslg = builder.finish();
+        let pslg = builder.finish().pslg;
         assert_eq!(pslg.check_layout(), Ok(()));
         pslg
     }
@@ -194,8 +249,25 @@ mod tests {
     }
 
     #[test]
+    fn heights_are_those_of_all_points_or_none() {
+        let raised = |at, height| Place { at, height: Some(height) };
+        let heights = |places: &[Place]| {
+            let mut builder = GraphBuilder::new("f");
+            builder.feature(Shape::Points(places.to_vec()), 1).unwrap();
+            builder.finish().heights("f").map_err(|error| error.to_string())
+        };
+        let [a, b] = [place(DVec2::ZERO), raised(DVec2::X, 2.0)];
+        assert_eq!(heights(&[a, b]), Err("f: 1 heights instead of 2".to_owned()));
+        // The first height counts.
+        let again = raised(DVec2::ZERO, 1.0);
+        assert_eq!(heights(&[a, again, b, raised(DVec2::X, 3.0)]), Ok(Some(vec![1.0, 2.0])));
+        assert_eq!(heights(&[a, raised(DVec2::X, 0.0)]), Ok(None));
+        assert_eq!(heights(&[]), Ok(None));
+    }
+
+    #[test]
     fn zero_has_one_sign() {
-        let pslg = graph(vec![Shape::Points(vec![DVec2::ZERO, -DVec2::ZERO, DVec2::X])]);
+        let pslg = graph(vec![Shape::Points([DVec2::ZERO, -DVec2::ZERO, DVec2::X].map(place).to_vec())]);
         assert_eq!(pslg.points.len(), 2);
         assert_eq!(pslg.check_layout(), Ok(()));
     }

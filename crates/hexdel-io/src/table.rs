@@ -11,12 +11,15 @@
 use std::borrow::Cow;
 use std::io::BufRead;
 
-use hexdel_geom::{DVec2, Pslg};
+use hexdel_geom::Pslg;
 
-use crate::columns::{Column, Columns, TakenColumn, TakenColumns, by_names, names_id};
+use crate::columns::{
+    Column, Columns, TakenColumn, TakenColumns, by_names, heights_by_name, names_depths, names_id,
+};
 use crate::error::ReadError;
 use crate::lines::{Comments, Lines, Row};
 use crate::mend::Faults;
+use crate::shapes::{Features, Place};
 
 /// The most points, so that 32-bit indices reach all of them.
 const MAX_POINTS: usize = u32::MAX as usize;
@@ -30,11 +33,11 @@ pub(crate) fn read_table(
     reader: impl BufRead,
     file: &str,
     asked: Option<&Columns>,
-) -> Result<(Pslg, Option<TakenColumns>), ReadError> {
+) -> Result<(Features, Option<TakenColumns>), ReadError> {
     let mut lines = Lines::new(reader, file, Comments::WholeLine);
     let (mut points, mut faults) = (Vec::new(), Faults::default());
     let Some(mut table) = Table::begin(&mut lines, asked, &mut points, &mut faults)? else {
-        return Ok((Pslg::default(), None));
+        return Ok((Pslg::default().into(), None));
     };
     while let Some(row) = faults.note(lines.next_row())?.flatten() {
         if points.len() >= MAX_POINTS {
@@ -50,7 +53,7 @@ pub(crate) fn read_table(
     }
     faults.take()?;
     table.check_count(points.len(), file)?;
-    Ok((Pslg::from_points(points), Some(table.taken)))
+    Ok((Features::points(&points), Some(table.taken)))
 }
 
 /// How the rows of a table are read.
@@ -59,6 +62,10 @@ struct Table {
     delimiter: Option<char>,
     /// Places of x and y in a row.
     columns: [usize; 2],
+    /// The place of heights.
+    heights: Option<usize>,
+    /// Whether each row must have a height.
+    needs_heights: bool,
     /// The number of columns in the header, which no row may have more of.
     names: Option<usize>,
     taken: TakenColumns,
@@ -80,7 +87,7 @@ impl Table {
     fn begin<R: BufRead>(
         lines: &mut Lines<R>,
         asked: Option<&Columns>,
-        points: &mut Vec<DVec2>,
+        points: &mut Vec<Place>,
         faults: &mut Faults,
     ) -> Result<Option<Self>, ReadError> {
         let Some(mut row) = lines.next_row()? else {
@@ -107,11 +114,9 @@ impl Table {
         let fields: Vec<&str> = split(row.text, delimiter).collect();
         let names = header.map(|(text, line)| (names_of(text, delimiter, fields.len()), text, line));
         let mut counting = None;
+        let at = |column| place(column, names.as_ref().map(|n| (&n.0[..], n.2)), &fields, row);
         let columns = match (asked, &names) {
-            (Some(asked), names) => {
-                let at = |column| place(column, names.as_ref().map(|n| (&n.0[..], n.2)), &fields, row);
-                [at(&asked.x)?, at(&asked.y)?]
-            }
+            (Some(asked), _) => [at(&asked.x)?, at(&asked.y)?],
             (None, Some((names, text, line))) => by_names(names).map_err(|fault| ReadError::Columns {
                 file: row.file.to_owned(),
                 line: *line,
@@ -124,19 +129,30 @@ impl Table {
                 [0, 1]
             }
         };
+        let heights = match (asked, &names) {
+            (Some(asked), _) => asked.z.as_ref().map(at).transpose()?,
+            (None, Some((names, ..))) => heights_by_name(names),
+            (None, None) => None,
+        };
         let taken = |column: usize| TakenColumn {
             number: column + 1,
             name: names.as_ref().and_then(|n| n.0.get(column)).map(|name| (*name).to_owned()),
         };
-        let taken = TakenColumns { x: taken(columns[0]), y: taken(columns[1]), decimal_commas: false };
+        let (x, y, z) = (taken(columns[0]), taken(columns[1]), heights.map(taken));
+        let depths = z.as_ref().and_then(|z| names_depths(z.name.as_ref()?)) == Some(true);
+        let taken = TakenColumns { x, y, z, depths, decimal_commas: false };
+        let needs_heights = asked.is_some_and(|asked| asked.z.is_some());
         // Who names columns by number has seen the rows.
-        let by_number = matches!(asked, Some(Columns { x: Column::Number(_), y: Column::Number(_) }));
+        let by_number = matches!(
+            asked,
+            Some(Columns { x: Column::Number(_), y: Column::Number(_), z: None | Some(Column::Number(_)) })
+        );
         let names = names.filter(|_| !by_number).map(|(names, ..)| names.len());
-        Ok(Self { delimiter, columns, names, taken, counting })
+        Ok(Self { delimiter, columns, heights, needs_heights, names, taken, counting })
     }
 
     /// Reads a point, and what else a row tells.
-    fn point(&mut self, row: Row<'_>, index: u64) -> Result<DVec2, ReadError> {
+    fn point(&mut self, row: Row<'_>, index: u64) -> Result<Place, ReadError> {
         if let Some(counting) = &mut self.counting {
             let next = split(row.text, self.delimiter).next().and_then(|field| field.parse().ok());
             if next == counting.last.checked_add(1) {
@@ -151,7 +167,7 @@ impl Table {
         self.read(row, index)
     }
 
-    fn read(&self, row: Row<'_>, index: u64) -> Result<DVec2, ReadError> {
+    fn read(&self, row: Row<'_>, index: u64) -> Result<Place, ReadError> {
         if let Some(names) = self.names {
             // Half of a number may be beyond the names, or names of rows before them.
             let beyond = split(row.text, self.delimiter).skip(names).find(|field| !field.is_empty());
@@ -167,7 +183,21 @@ impl Table {
         }
         let fields = self.columns.map(|at| split(row.text, self.delimiter).nth(at));
         let read = row.position_by(fields, "point", index, |field| number(field, self.delimiter));
-        read.map_err(|error| self.with_hint(error, row))
+        let at = read.map_err(|error| self.with_hint(error, row))?;
+        Ok(Place { at, height: self.height(row)? })
+    }
+
+    /// The height in a row, if there is one, or an error if there must be.
+    fn height(&self, row: Row<'_>) -> Result<Option<f64>, ReadError> {
+        let Some(place) = self.heights else {
+            return Ok(None);
+        };
+        let field = split(row.text, self.delimiter).nth(place);
+        let height = field.and_then(|field| number(field, self.delimiter)).filter(|z| z.is_finite());
+        if height.is_none() && self.needs_heights {
+            return Err(row.malformed("a height", field));
+        }
+        Ok(height.map(|z| if self.taken.depths { -z } else { z }))
     }
 
     /// The error with a word on decimal commas, where they may be the fault.
@@ -224,7 +254,7 @@ fn is_header(text: &str, asked: Option<&Columns>) -> bool {
             || !text.split([',', ';', '\t', ' ']).all(|word| is_number(unquote(word)));
     }
     match asked {
-        Some(Columns { x: Column::Number(x), y: Column::Number(y) }) => {
+        Some(Columns { x: Column::Number(x), y: Column::Number(y), .. }) => {
             let field = |n: &usize| fields.get(n.checked_sub(1)?);
             [x, y].into_iter().all(|n| field(n).is_some_and(|field| !is_number(field)))
         }
@@ -370,8 +400,8 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Vec<[f64; 2]> {
-        let (pslg, _) = read_table(text.as_bytes(), "t", None).unwrap();
-        pslg.points.into_iter().map(Into::into).collect()
+        let (read, _) = read_table(text.as_bytes(), "t", None).unwrap();
+        read.pslg.points.into_iter().map(Into::into).collect()
     }
 
     fn refused(text: &str) -> String {
@@ -427,6 +457,26 @@ mod tests {
     }
 
     #[test]
+    fn heights_are_a_column() {
+        let heights = |text: &str, asked: Option<&str>| {
+            let asked = asked.map(|asked| asked.parse().unwrap());
+            let (read, taken) = read_table(text.as_bytes(), "t", asked.as_ref())?;
+            read.heights("t").map(|heights| (heights, taken.unwrap().to_string()))
+        };
+        let told = "x = x (column 1), y = y (column 2), z = z (column 3)".to_owned();
+        assert_eq!(heights("x,y,z\n1,2,3\n4,5,-6", None).unwrap(), (Some(vec![3.0, -6.0]), told));
+        let told =
+            "x = x (column 2), y = y (column 3), z = -depth (column 1), with decimal commas".to_owned();
+        assert_eq!(heights("depth;x;y\n3,5;1;2,5", None).unwrap(), (Some(vec![-3.5]), told));
+        assert_eq!(heights("1 2 3\n4 5 6", Some("1,2,3")).unwrap().0, Some(vec![3.0, 6.0]));
+        assert_eq!(heights("x,y,z\n1,2,0\n4,5,0", None).unwrap().0, None);
+        assert_eq!(heights("x,y,z\n1,2,3", Some("x,y")).unwrap().0, None);
+        let message = |text, asked| heights(text, asked).unwrap_err().to_string();
+        assert_eq!(message("x,y,z\n1,2,3\n4,5,\n4,5,NA\n", None), "t: 1 heights instead of 3");
+        assert_eq!(message("x,y,z\n1,2,3\n4,5,NA\n", Some("x,y,z")), "t:3: expected a height, found \"NA\"");
+    }
+
+    #[test]
     fn what_does_not_tell_is_refused_with_the_header() {
         let does_not_tell = "the header does not say which columns are x and y";
         for (text, message) in [
@@ -447,7 +497,7 @@ mod tests {
         };
         assert_eq!(columns("a,b\n1,2", "a,c"), "t:1: no column c, there are \"a, b\"");
         assert_eq!(columns("a,b\n1,2", "1,3"), "t:1: no column 3, there are \"a, b\"");
-        let zero = Columns { x: Column::Number(0), y: Column::Number(2) };
+        let zero = Columns { x: Column::Number(0), y: Column::Number(2), z: None };
         for (text, there) in [("a,b\n1,2", "\"a, b\""), ("1,2\n3,4", "2 columns and no header")] {
             let error = read_table(text.as_bytes(), "t", Some(&zero)).unwrap_err();
             assert_eq!(error.to_string(), format!("t:1: no column 0, there are {there}"));
@@ -480,7 +530,7 @@ mod tests {
         assert!(refused(text).starts_with("t:2: expected as many fields as the header has, found \"0.25\""));
         let asked = "2,3".parse().unwrap();
         let (read, _) = read_table(text.as_bytes(), "t", Some(&asked)).unwrap();
-        assert_eq!(read.points[1], DVec2::new(1.5, 2.25));
+        assert_eq!(read.pslg.points[1], hexdel_geom::DVec2::new(1.5, 2.25));
     }
 
     #[test]

@@ -3,7 +3,9 @@
 //! No hashing: the edges of each triangle are sorted into the bucket of their smaller
 //! end, 24 bytes per triangle and 8 per vertex.
 
-use hexdel_geom::{TriMesh, VertexId};
+use hexdel_geom::{TriMesh, TriangleId, VertexId, orient2d};
+
+use crate::view::MarkedEdge;
 
 /// An edge from the side of one of its triangles.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,6 +89,38 @@ impl Edges {
             }
         })
     }
+}
+
+/// The markers of the edges that have one.
+pub(crate) struct EdgeMarkers {
+    /// By ends, the smaller first.
+    sorted: Vec<([u32; 2], i32)>,
+}
+
+impl EdgeMarkers {
+    pub(crate) fn new(edges: &[MarkedEdge]) -> Self {
+        let ends = |edge: &MarkedEdge| edge.ends.map(|v| v.index() as u32);
+        let mut sorted: Vec<_> = edges
+            .iter()
+            .map(|edge| (ends(edge), edge.marker))
+            .map(|([a, b], m)| ([a.min(b), a.max(b)], m))
+            .collect();
+        sorted.sort_unstable();
+        Self { sorted }
+    }
+
+    /// The marker of the edge between two vertices, in either order.
+    pub(crate) fn of(&self, [a, b]: [u32; 2]) -> Option<i32> {
+        let found = self.sorted.binary_search_by_key(&[a.min(b), a.max(b)], |(ends, _)| *ends);
+        found.ok().map(|at| self.sorted[at].1)
+    }
+}
+
+/// The corners of a triangle, counter-clockwise, from its first on.
+pub(crate) fn counter_clockwise(mesh: &TriMesh, triangle: usize) -> [VertexId; 3] {
+    let [a, b, c] = mesh.triangles[triangle];
+    let [p, q, r] = mesh.corners(TriangleId::new(triangle));
+    if orient2d(p, q, r) < 0.0 { [a, c, b] } else { [a, b, c] }
 }
 
 /// The ends of the edges from corner 0 to 1, 1 to 2, and 2 to 0, the smaller first.

@@ -11,7 +11,7 @@ use hexdel_geom::{DVec2, Pslg, Region};
 
 use crate::second_order::Midpoints;
 use crate::text::TextWriter;
-use crate::topology::Edges;
+use crate::topology::{EdgeMarkers, Edges};
 use crate::view::MeshView;
 
 /// Writes the vertices of a mesh, and the midpoints of elements of second order.
@@ -116,16 +116,10 @@ pub(crate) fn write_ele(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
 pub(crate) fn write_edge(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     let edges = Edges::new(view.mesh);
-    let mut marked: Vec<([u32; 2], i32)> = Vec::new();
-    for edge in view.marked_edges.unwrap_or(&[]) {
-        let [a, b] = edge.ends.map(|v| v.index() as u32);
-        marked.push(([a.min(b), a.max(b)], edge.marker));
-    }
-    marked.sort_unstable();
+    let markers = EdgeMarkers::new(view.marked_edges.unwrap_or(&[]));
     text.integer(edges.iter().count()).text(" 1\n");
     for (i, edge) in edges.iter().enumerate() {
-        let found = marked.binary_search_by_key(&edge.ends, |(ends, _)| *ends);
-        let marker = found.map_or(i32::from(edge.triangles == 1), |at| marked[at].1);
+        let marker = markers.of(edge.ends).unwrap_or(i32::from(edge.triangles == 1));
         text.integer(i + view.first_number as usize);
         for end in edge.ends {
             text.text(" ").integer(end + view.first_number);

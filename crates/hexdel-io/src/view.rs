@@ -48,6 +48,9 @@ pub struct MeshView<'a> {
     /// For each vertex a marker, in Triangle's sense: 0 inside, 1 on a boundary
     /// that has none of its own. Kept by `.node`, `.vtu` and `.ron`.
     pub vertex_markers: Option<&'a [i32]>,
+    /// For each vertex its height, upwards, in any unit. Kept by `.vtu`, `.vtk`, `.2dm`, `.14` (as
+    /// depths), `.nc`, `.geojson`, `.wkt`, `.json` and `.ron`.
+    pub heights: Option<&'a [f64]>,
     /// For each triangle the attribute of its region, 0 if it is in none. Kept by
     /// `.ele`, `.vtu` and `.ron`.
     pub regions: Option<&'a [f64]>,
@@ -78,6 +81,7 @@ impl<'a> MeshView<'a> {
             mesh,
             input_indices: None,
             vertex_markers: None,
+            heights: None,
             regions: None,
             marked_edges: None,
             certificate: None,
@@ -100,6 +104,12 @@ impl<'a> MeshView<'a> {
     #[must_use]
     pub fn with_vertex_markers(self, vertex_markers: &'a [i32]) -> Self {
         Self { vertex_markers: Some(vertex_markers), ..self }
+    }
+
+    /// With the height of each vertex.
+    #[must_use]
+    pub fn with_heights(self, heights: &'a [f64]) -> Self {
+        Self { heights: Some(heights), ..self }
     }
 
     /// With the attribute of each triangle's region.
@@ -170,18 +180,26 @@ impl<'a> MeshView<'a> {
     /// ```
     pub fn lost_in(&self, format: MeshFormat) -> Vec<&'static str> {
         use MeshFormat as F;
-        let inputs = [F::NodeEle, F::Poly, F::Vtu, F::Msh41, F::Msh22, F::Json, F::Ron, F::Svg];
-        let markers = [F::NodeEle, F::Poly, F::Vtu, F::Msh41, F::Msh22, F::Medit, F::Json, F::Ron];
-        let regions = [F::NodeEle, F::Vtu, F::Msh41, F::Msh22, F::Medit, F::Json, F::Ron];
-        let edges = [F::Edge, F::Poly, F::Msh41, F::Msh22, F::Medit, F::Json, F::Ron];
+        // Those that keep all of it but attributes.
+        let ours = [F::Msh41, F::Msh22, F::Json, F::Ron];
+        let carry = |formats: &[F]| ours.contains(&format) || formats.contains(&format);
+        let vtk = [F::Vtu, F::Vtk, F::Ugrid];
+        let inputs = carry(&[F::NodeEle, F::Poly, F::Svg]) || vtk.contains(&format);
+        let markers = carry(&[F::NodeEle, F::Poly, F::Medit]) || vtk.contains(&format);
+        let regions = carry(&[F::NodeEle, F::Medit, F::GeoJson, F::TwoDm]) || vtk.contains(&format);
+        let edges = carry(&[F::Edge, F::Poly, F::Medit, F::TwoDm, F::Fort14, F::Ugrid]);
+        let heights = vtk.contains(&format)
+            || [F::GeoJson, F::Wkt, F::TwoDm, F::Fort14, F::Json, F::Ron].contains(&format);
+        let attributes = [F::NodeEle, F::Poly].contains(&format);
         let all = [
-            ("input indices", self.input_indices.is_some(), &inputs[..]),
-            ("vertex markers", self.vertex_markers.is_some(), &markers),
-            ("regions", self.regions.is_some(), &regions),
-            ("marked edges", self.marked_edges.is_some(), &edges),
-            ("vertex attributes", self.vertex_attributes.is_some_and(|(_, n)| n > 0), &[F::NodeEle, F::Poly]),
+            ("input indices", self.input_indices.is_some(), inputs),
+            ("vertex markers", self.vertex_markers.is_some(), markers),
+            ("heights", self.heights.is_some(), heights),
+            ("regions", self.regions.is_some(), regions),
+            ("marked edges", self.marked_edges.is_some(), edges),
+            ("vertex attributes", self.vertex_attributes.is_some_and(|(_, n)| n > 0), attributes),
         ];
-        let lost = all.iter().filter(|(_, there, carry)| *there && !carry.contains(&format));
+        let lost = all.iter().filter(|(_, there, carried)| *there && !carried);
         lost.map(|(name, ..)| *name).collect()
     }
 
@@ -199,6 +217,17 @@ impl<'a> MeshView<'a> {
                 y: vertices[index].y,
             });
         }
+        let heights = self.heights.unwrap_or(&[]);
+        if let Some(index) = heights.iter().position(|z| !z.is_finite()) {
+            let (file, item) = (file.to_owned(), "height of vertex");
+            return Err(WriteError::Unrepresentable {
+                file,
+                format: "a mesh",
+                item,
+                index,
+                found: heights[index],
+            });
+        }
         for (index, corners) in self.mesh.triangles.iter().enumerate() {
             self.check_indices(file, "triangle", index, corners)?;
         }
@@ -213,6 +242,7 @@ impl<'a> MeshView<'a> {
         let arrays = [
             ("input indices", vertices, self.input_indices.map(<[_]>::len)),
             ("vertex markers", vertices, self.vertex_markers.map(<[_]>::len)),
+            ("heights", vertices, self.heights.map(<[_]>::len)),
             ("regions", triangles, self.regions.map(<[_]>::len)),
             (
                 "vertex attributes",
@@ -258,6 +288,7 @@ impl fmt::Debug for MeshView<'_> {
             .field("triangles", &self.mesh.triangles.len())
             .field("input_indices", &self.input_indices.is_some())
             .field("vertex_markers", &self.vertex_markers.is_some())
+            .field("heights", &self.heights.is_some())
             .field("regions", &self.regions.is_some())
             .field("marked_edges", &self.marked_edges.map(<[_]>::len))
             .field("certificate", &self.certificate.is_some())

@@ -1,8 +1,8 @@
 //! VTK's XML format of unstructured grids (`.vtu`), for `ParaView` and its kin.
 //!
 //! Cell data are `min_angle` and `max_angle` in degrees and `region`, the attribute
-//! of the triangle's region; point data are `input_index` (-1 for Steiner points)
-//! and `marker`; field data say what the mesh was made to keep. What the mesh view
+//! of the triangle's region; point data are `input_index` (-1 for Steiner points),
+//! `marker` and `height`; field data say what the mesh was made to keep. What the mesh view
 //! does not have is left out.
 //!
 //! Arrays are stored in place as base64 of little-endian binary with a 64-bit byte
@@ -23,7 +23,7 @@ use crate::promised::Promised;
 use crate::view::MeshView;
 
 /// VTK's number of the cell type triangle.
-const VTK_TRIANGLE: u8 = 5;
+pub(crate) const VTK_TRIANGLE: u8 = 5;
 
 /// Writes a mesh.
 pub(crate) fn write_vtu(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
@@ -108,7 +108,7 @@ fn cells(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
 }
 
 fn point_data(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
-    if view.input_indices.is_none() && view.vertex_markers.is_none() {
+    if view.input_indices.is_none() && view.vertex_markers.is_none() && view.heights.is_none() {
         return Ok(());
     }
     out.write_all(b"<PointData>\n")?;
@@ -119,6 +119,10 @@ fn point_data(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     if let Some(markers) = view.vertex_markers {
         let values = markers.iter().map(|m| m.to_le_bytes());
         array(out, "type=\"Int32\" Name=\"marker\"", markers.len(), values)?;
+    }
+    if let Some(heights) = view.heights {
+        let values = heights.iter().map(|z| z.to_le_bytes());
+        array(out, "type=\"Float64\" Name=\"height\"", heights.len(), values)?;
     }
     out.write_all(b"</PointData>\n")
 }

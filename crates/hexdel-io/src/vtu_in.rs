@@ -1,6 +1,6 @@
 //! VTK's XML format of unstructured grids (`.vtu`): reading triangles.
 //!
-//! Taken are triangles, with the cell data `region` and the point data `marker` and
+//! Taken are triangles, with the cell data `region` and the point data `marker`, `height` and
 //! `input_index`, from any number of pieces; lines become marked edges, with the cell
 //! data `marker`; single vertices are left, other cells refused. Arrays may be text,
 //! base64, or appended, raw or in base64, in either byte order and compressed by zlib;
@@ -102,6 +102,7 @@ enum Want {
     Types,
     Markers,
     Inputs,
+    Heights,
     Regions,
     EdgeMarkers,
     Bounds,
@@ -224,6 +225,7 @@ impl Grid {
             ("Cells", "types") => Want::Types,
             ("PointData", "marker") => Want::Markers,
             ("PointData", "input_index") => Want::Inputs,
+            ("PointData", "height") => Want::Heights,
             ("CellData", "region") => Want::Regions,
             ("CellData", "marker") => Want::EdgeMarkers,
             ("FieldData", "hexdel_bounds") => Want::Bounds,
@@ -370,7 +372,7 @@ impl Grid {
         }
         let here = data.mesh.vertices.len() - first;
         self.cells(take, [first, here], data, columns)?;
-        columns.points(self, take(Want::Markers), take(Want::Inputs), here)
+        columns.points(self, [Want::Markers, Want::Inputs, Want::Heights].map(take), here)
     }
 
     /// Takes the cells of a piece whose points are those from `first` on, `here` of
@@ -496,6 +498,7 @@ impl Grid {
 struct Columns {
     markers: Vec<Option<i32>>,
     inputs: Vec<Option<i64>>,
+    heights: Vec<Option<f64>>,
     regions: Vec<Option<f64>>,
     edges: Vec<MarkedEdge>,
 }
@@ -504,17 +507,21 @@ impl Columns {
     fn points(
         &mut self,
         grid: &Grid,
-        markers: Option<&Values>,
-        inputs: Option<&Values>,
+        [markers, inputs, heights]: [Option<&Values>; 3],
         count: usize,
     ) -> Result<(), ReadError> {
-        for (name, column) in [("vertex markers", markers), ("input indices", inputs)] {
+        for (name, column) in [("vertex markers", markers), ("input indices", inputs), ("heights", heights)] {
             grid.same_length(name, count, column.map_or(count, Values::len))?;
         }
         for i in 0..count {
             self.markers.push(markers.map(|values| grid.marker(values.get(i))).transpose()?);
             let index = |values: &Values| grid.integer(values.get(i), "an input index");
             self.inputs.push(inputs.map(index).transpose()?);
+            let height = heights.map(|values| values.get(i));
+            if let Some(bad) = height.filter(|height| !height.is_finite()) {
+                return Err(grid.fault(format!("expected a height, found {bad}")));
+            }
+            self.heights.push(height);
         }
         Ok(())
     }
@@ -525,6 +532,8 @@ impl Columns {
         let some = self.inputs.iter().any(Option::is_some);
         data.input_indices =
             some.then(|| self.inputs.iter().map(|i| u32::try_from(i.unwrap_or(-1)).ok()).collect());
+        let some = self.heights.iter().any(Option::is_some);
+        data.heights = some.then(|| self.heights.iter().map(|z| z.unwrap_or(0.0)).collect());
         let some = self.regions.iter().any(Option::is_some);
         data.regions = some.then(|| self.regions.iter().map(|r| r.unwrap_or(0.0)).collect());
         data.marked_edges = (!self.edges.is_empty()).then_some(self.edges);

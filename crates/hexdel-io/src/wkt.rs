@@ -2,7 +2,7 @@
 //!
 //! A text is any number of geometries, each with or without `SRID=..;` before it,
 //! separated by white space, commas or semicolons. All of the simple features are
-//! read, with `Z`, `M` and `ZM` coordinates, of which x and y are taken; a `TRIANGLE`
+//! read, with `Z`, `M` and `ZM` coordinates, of which measures are left; a `TRIANGLE`
 //! is a polygon, a `TIN` or `POLYHEDRALSURFACE` a collection of them. Geometries are
 //! numbered from 1, those of an outermost `GEOMETRYCOLLECTION` each for itself. What
 //! becomes of them is said in [`shapes`](crate::shapes).
@@ -13,12 +13,12 @@
 
 use std::io::BufRead;
 
-use hexdel_geom::{DVec2, Pslg};
+use hexdel_geom::DVec2;
 
 use crate::error::ReadError;
 use crate::lines::{clip, quote};
 use crate::mend::Faults;
-use crate::shapes::{GraphBuilder, Shape};
+use crate::shapes::{Features, GraphBuilder, Place, Shape};
 
 /// The longest word or number, bytes.
 const MAX_WORD: usize = 1 << 10;
@@ -27,8 +27,9 @@ const MAX_WORD: usize = 1 << 10;
 const MAX_DEPTH: usize = 64;
 
 /// Reads a text.
-pub(crate) fn read_wkt(reader: impl BufRead, file: &str) -> Result<Pslg, ReadError> {
-    let mut parser = Parser { scanner: Scanner::new(reader, file)?, points: 0, faults: Faults::default() };
+pub(crate) fn read_wkt(reader: impl BufRead, file: &str) -> Result<Features, ReadError> {
+    let scanner = Scanner::new(reader, file)?;
+    let mut parser = Parser { scanner, points: 0, is_measured: false, faults: Faults::default() };
     let mut builder = GraphBuilder::new(file);
     let read = read_geometries(&mut parser, &mut builder);
     // What is wrong with numbers was found before.
@@ -53,6 +54,8 @@ struct Parser<R> {
     scanner: Scanner<R>,
     /// Positions so far, for errors.
     points: u64,
+    /// Whether third coordinates of the geometry are measures rather than heights.
+    is_measured: bool,
     /// Of numbers.
     faults: Faults,
 }
@@ -95,7 +98,9 @@ impl<R: BufRead> Parser<R> {
         if !NAMES.contains(&name.as_str()) {
             return Err(self.scanner.malformed(EXPECTED));
         }
+        let dimension = word[name.len().min(word.len())..].to_ascii_uppercase();
         self.scanner.advance()?;
+        self.is_measured = dimension == "M" || self.scanner.is_word("M");
         if ["Z", "M", "ZM"].iter().any(|dimension| self.scanner.is_word(dimension)) {
             self.scanner.advance()?;
         }
@@ -128,12 +133,12 @@ impl<R: BufRead> Parser<R> {
         Ok(items)
     }
 
-    fn positions(&mut self) -> Result<Vec<DVec2>, ReadError> {
+    fn positions(&mut self) -> Result<Vec<Place>, ReadError> {
         self.list(Self::position)
     }
 
     /// A position of a `MULTIPOINT`, with or without parentheses.
-    fn loose_position(&mut self) -> Result<DVec2, ReadError> {
+    fn loose_position(&mut self) -> Result<Place, ReadError> {
         if self.scanner.token != Token::Mark(b'(') {
             return self.position();
         }
@@ -143,16 +148,18 @@ impl<R: BufRead> Parser<R> {
         Ok(position)
     }
 
-    fn position(&mut self) -> Result<DVec2, ReadError> {
+    fn position(&mut self) -> Result<Place, ReadError> {
         let [x, y] = [self.number("the x coordinate")?, self.number("the y coordinate")?];
         // A height, a measure, or both.
-        for _ in 0..2 {
+        let mut height = None;
+        for i in 0..2 {
             if matches!(self.scanner.token, Token::Word(_)) {
-                self.number("a coordinate")?;
+                let number = self.number("a coordinate")?;
+                height = height.or((i == 0 && !self.is_measured).then_some(number));
             }
         }
         self.points += 1;
-        Ok(DVec2::new(x, y))
+        Ok(Place { at: DVec2::new(x, y), height })
     }
 
     fn number(&mut self, expected: &'static str) -> Result<f64, ReadError> {
@@ -302,9 +309,23 @@ impl<R: BufRead> Scanner<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hexdel_geom::Pslg;
 
     fn read(text: &str) -> Result<Pslg, ReadError> {
-        read_wkt(text.as_bytes(), "f")
+        read_wkt(text.as_bytes(), "f").map(|features| features.pslg)
+    }
+
+    #[test]
+    fn third_coordinates_are_heights_but_for_measures() {
+        for (text, expected) in [
+            ("POINT (1 2 3) POINT ZM (4 5 6 7)", Some(vec![3.0, 6.0])),
+            ("POINTZ (1 2 3)", Some(vec![3.0])),
+            ("POINT M (1 2 3) POINTM (4 5 6)", None),
+            ("MULTIPOINT Z (1 2 0, 4 5 0)", None),
+        ] {
+            let heights = read_wkt(text.as_bytes(), "f").unwrap().heights("f").unwrap();
+            assert_eq!(heights, expected, "{text}");
+        }
     }
 
     #[test]

@@ -12,7 +12,8 @@ use crate::read::beside;
 use crate::text::TextWriter;
 use crate::view::MeshView;
 use crate::{
-    graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, picture, svg, triangle_out, vtu,
+    fort14, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, picture, polygons_out, stl,
+    svg, triangle_out, twodm, ugrid, vtk, vtu,
 };
 
 /// Writes a mesh, or its picture, in the format that the extension stands for.
@@ -35,7 +36,7 @@ use crate::{
 /// # Complexity
 ///
 /// Linear in the size of the mesh; extra memory is a constant for `.node`, `.ele`,
-/// `.vtu` and `.ron`, and eleven bytes per triangle for pictures.
+/// `.vtu` and `.ron`, eleven bytes per triangle for pictures, and the file for `.nc`.
 pub fn write_mesh(path: impl AsRef<Path>, view: &MeshView<'_>) -> Result<(), WriteError> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -136,9 +137,11 @@ fn write_graph(out: &mut dyn Write, format: PointFormat, pslg: &Pslg) -> io::Res
         PointFormat::Json => graph_json::write_graph(out, pslg),
         PointFormat::Ron => graph_ron::write_graph_ron(out, pslg),
         // Refused by `check_points`.
-        PointFormat::GeoJson | PointFormat::Wkt | PointFormat::CgShop => {
-            Err(io::ErrorKind::Unsupported.into())
-        }
+        PointFormat::GeoJson
+        | PointFormat::Wkt
+        | PointFormat::CgShop
+        | PointFormat::TwoDm
+        | PointFormat::Fort14 => Err(io::ErrorKind::Unsupported.into()),
     }
 }
 
@@ -158,6 +161,13 @@ fn stream_writer(format: MeshFormat) -> Option<StreamWriter> {
         MeshFormat::Medit => Some(medit::write_medit),
         MeshFormat::Json => Some(mesh_json::write_json),
         MeshFormat::Ron => Some(mesh_ron::write_ron),
+        MeshFormat::GeoJson => Some(polygons_out::write_geojson),
+        MeshFormat::Wkt => Some(polygons_out::write_wkt),
+        MeshFormat::TwoDm => Some(twodm::write_2dm),
+        MeshFormat::Fort14 => Some(fort14::write_fort14),
+        MeshFormat::Ugrid => Some(ugrid::write_ugrid),
+        MeshFormat::Vtk => Some(vtk::write_vtk),
+        MeshFormat::Stl => Some(stl::write_stl),
         MeshFormat::Svg => Some(svg::write_svg),
         #[cfg(feature = "png")]
         MeshFormat::Png => Some(crate::png::write_png),
@@ -169,8 +179,10 @@ fn check(format: MeshFormat, view: &MeshView<'_>, name: &str) -> Result<(), Writ
     view.check(name)?;
     match format {
         format if format.is_picture() => picture::check(view, name),
-        MeshFormat::Medit => medit::check_regions(view, name),
-        MeshFormat::Json => {
+        MeshFormat::Medit => medit::check_regions(view, "Medit's format", name),
+        MeshFormat::TwoDm => medit::check_regions(view, "the format .2dm", name),
+        MeshFormat::Ugrid => ugrid::check(view.mesh, name),
+        MeshFormat::Json | MeshFormat::GeoJson => {
             graph_json::check_numbers(view.regions.unwrap_or(&[]).iter().copied(), "region of triangle", name)
         }
         _ => Ok(()),

@@ -95,7 +95,7 @@ fn missing_files_and_unknown_extensions() {
     let error = read_points("no/such/file.node").unwrap_err();
     assert!(matches!(error, ReadError::Missing { .. }), "{error:?}");
     assert!(error.to_string().starts_with("no/such/file.node: "), "{error}");
-    for name in ["a.shp", "node", "a", "", "a.vtk"] {
+    for name in ["a.xls", "node", "a", "", "a.vtp"] {
         let error = read_points(name).unwrap_err();
         assert!(matches!(error, ReadError::UnknownExtension { .. }), "{error:?}");
         let error = read_mesh(name).unwrap_err();

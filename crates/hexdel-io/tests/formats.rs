@@ -5,26 +5,30 @@
 
 use hexdel_geom::{AngleBounds, DVec2, Pslg, Region, TriMesh, VertexId};
 use hexdel_io::{
-    MarkedEdge, MeshData, MeshFormat, PointFormat, Promised, PromisedDomain, ReadError, WriteError,
-    read_mesh_data, read_mesh_from, read_points, read_points_from, write_mesh, write_mesh_to, write_points,
-    write_points_to,
+    MarkedEdge, MeshData, MeshFormat, PointFormat, PointReader, Promised, PromisedDomain, ReadError,
+    WriteError, read_mesh_data, read_mesh_from, read_points, read_points_from, write_mesh, write_mesh_to,
+    write_points, write_points_to,
 };
 use proptest::prelude::*;
+
+mod support;
 
 /// What a format carries beside the triangles.
 type Carries = &'static [&'static str];
 
 const NOTHING: Carries = &[];
 const NO_EDGES: Carries = &["inputs", "markers", "regions", "promised"];
+const VTU: Carries = &["inputs", "markers", "regions", "promised", "heights"];
+const NO_HEIGHTS: Carries = &["inputs", "markers", "regions", "edges", "promised"];
 const NO_INPUTS: Carries = &["markers", "regions", "edges"];
-const ALL: Carries = &["inputs", "markers", "regions", "edges", "promised"];
+const ALL: Carries = &["inputs", "markers", "regions", "edges", "promised", "heights"];
 
 /// Every format that is written and read, by the extension it has here.
 const MESHES: [(MeshFormat, &str, Carries); 9] = [
     (MeshFormat::NodeEle, "ele", NO_EDGES),
-    (MeshFormat::Vtu, "vtu", NO_EDGES),
-    (MeshFormat::Msh41, "msh", ALL),
-    (MeshFormat::Msh22, "msh2", ALL),
+    (MeshFormat::Vtu, "vtu", VTU),
+    (MeshFormat::Msh41, "msh", NO_HEIGHTS),
+    (MeshFormat::Msh22, "msh2", NO_HEIGHTS),
     (MeshFormat::Obj, "obj", NOTHING),
     (MeshFormat::Off, "off", NOTHING),
     (MeshFormat::Medit, "mesh", NO_INPUTS),
@@ -58,6 +62,7 @@ fn sample(integers: bool) -> MeshData {
     });
     data.input_indices = Some(vec![None, Some(3), Some(0), Some(u32::MAX), None, Some(7), Some(5), Some(4)]);
     data.vertex_markers = Some(vec![0, 1, -5, i32::MAX, i32::MIN, 2, 0, 7]);
+    data.heights = Some((0..8).map(|i| AWKWARD[(i + 1) % 12]).collect());
     let regions = [3.0, 0.0, -2.0, 3.0, 2_147_483_647.0];
     data.regions = Some(if integers { regions.to_vec() } else { regions.map(|r| r + 0.1).to_vec() });
     let edge = |a, b, marker| MarkedEdge { ends: [VertexId::new(a), VertexId::new(b)], marker };
@@ -74,6 +79,7 @@ fn carried(data: &MeshData, carries: Carries) -> MeshData {
     left.input_indices.take_if(|_| !carries.contains(&"inputs"));
     left.vertex_markers.take_if(|_| !carries.contains(&"markers"));
     left.regions.take_if(|_| !carries.contains(&"regions"));
+    left.heights.take_if(|_| !carries.contains(&"heights"));
     left.promised.take_if(|_| !carries.contains(&"promised"));
     left.marked_edges.take_if(|_| !carries.contains(&"edges"));
     left
@@ -139,14 +145,16 @@ fn meshes_of_nothing() {
 #[test]
 fn formats_of_one_direction_say_so() {
     let data = sample(true);
-    for format in [MeshFormat::Edge, MeshFormat::Neigh, MeshFormat::Poly, MeshFormat::Svg] {
+    use MeshFormat as F;
+    for format in [F::Edge, F::Neigh, F::Poly, F::GeoJson, F::Wkt, F::Ugrid, F::Vtk, F::Stl, F::Svg] {
         write_mesh_to(&mut Vec::new(), format, &data.view(), "s").unwrap();
         let error = read_mesh_from(&b""[..], format, "s").unwrap_err();
         assert!(matches!(error, ReadError::WriteOnly { .. }), "{error:?}");
     }
     let error = read_mesh_from(&b""[..], MeshFormat::NodeEle, "s").unwrap_err();
     assert_eq!(error.to_string(), "s: the format .node/.ele takes two files");
-    for format in [PointFormat::GeoJson, PointFormat::Wkt, PointFormat::CgShop] {
+    for name in ["geojson", "wkt", "cgshop", "2dm", "14"] {
+        let format = PointFormat::from_name(name).unwrap();
         let error = write_points_to(&mut Vec::new(), format, &Pslg::default(), "s").unwrap_err();
         assert!(matches!(error, WriteError::ReadOnly { .. }), "{error:?}");
     }
@@ -224,6 +232,81 @@ proptest! {
             assert_same(&read_mesh_from(&stream[..], *format, name).unwrap(), &data, name);
         }
     }
+}
+
+/// Nodes have any numbers there and edges only a place on the boundary, so that these formats have tests of
+/// their own.
+#[test]
+fn grids_of_hydrodynamics() {
+    let mut data = MeshData::new(support::squares(2));
+    data.heights = Some((0..9).map(|i| AWKWARD[i]).collect());
+    data.regions = Some(vec![1.0, 2.0, 3.0, -4.0, 1.0, 1.0, 1.0, 1.0]);
+    let edge = |a, b, marker| MarkedEdge { ends: [VertexId::new(a), VertexId::new(b)], marker };
+    // The lower side is open, in two parts; the upper is marked, the left against its direction, one edge inside.
+    data.marked_edges =
+        Some(vec![edge(0, 1, -1), edge(1, 2, -2), edge(8, 7, 7), edge(0, 3, 9), edge(4, 5, 1)]);
+    let again = |data: &MeshData, format| {
+        let mut stream = Vec::new();
+        write_mesh_to(&mut stream, format, &data.view(), "s").unwrap();
+        read_mesh_from(&stream[..], format, "s").unwrap()
+    };
+    let sms = again(&data, MeshFormat::TwoDm);
+    let strings = vec![edge(0, 1, -1), edge(1, 2, -2), edge(8, 7, 7), edge(3, 0, 9)];
+    let mut expected = data.clone();
+    expected.marked_edges = Some(strings);
+    assert_same(&sms, &expected, "2dm");
+    assert_same(&again(&sms, MeshFormat::TwoDm), &sms, "2dm again");
+    let adcirc = again(&data, MeshFormat::Fort14);
+    let land = [edge(2, 5, 1), edge(5, 8, 1), edge(8, 7, 2), edge(7, 6, 3), edge(6, 3, 3), edge(3, 0, 4)];
+    let edges = [&[edge(0, 1, -1), edge(1, 2, -2)][..], &land].concat();
+    (expected.marked_edges, expected.regions) = (Some(edges), None);
+    assert_same(&adcirc, &expected, "14");
+    assert_same(&again(&adcirc, MeshFormat::Fort14), &adcirc, "14 again");
+    // As points.
+    for format in [PointFormat::TwoDm, PointFormat::Fort14] {
+        let mut stream = Vec::new();
+        write_mesh_to(&mut stream, MeshFormat::from_name(format.name()).unwrap(), &data.view(), "s").unwrap();
+        let file = PointReader::new().read_from(&stream[..], format, "s").unwrap();
+        assert_eq!((file.pslg.points, file.height_attribute), (data.mesh.vertices.clone(), Some(0)));
+        assert_eq!(Some(file.pslg.point_attributes), data.heights);
+    }
+    data.regions = Some(vec![0.5; 8]);
+    let error = write_mesh_to(&mut Vec::new(), MeshFormat::TwoDm, &data.view(), "s").unwrap_err();
+    assert_eq!(error.to_string(), "s: region of triangle 0 is 0.5, which the format .2dm cannot hold");
+}
+
+#[test]
+fn polygons_are_read_as_a_graph() {
+    let mut data = MeshData::new(support::squares(2));
+    for heights in [None, Some((0..9).map(|i| AWKWARD[i]).collect::<Vec<_>>())] {
+        data.heights = heights;
+        for format in [PointFormat::GeoJson, PointFormat::Wkt] {
+            let mut stream = Vec::new();
+            write_mesh_to(&mut stream, MeshFormat::from_name(format.name()).unwrap(), &data.view(), "s")
+                .unwrap();
+            let file = PointReader::new().read_from(&stream[..], format, "s").unwrap();
+            assert_eq!((file.pslg.polygons.len(), file.pslg.segments.len()), (8, 16));
+            for (p, &z) in file.pslg.points.iter().zip(&file.pslg.point_attributes) {
+                let vertex = data.mesh.vertices.iter().position(|v| v == p).unwrap();
+                assert_eq!(data.heights.as_ref().map(|heights| heights[vertex]), Some(z));
+            }
+            assert_eq!(file.height_attribute.is_some(), data.heights.is_some());
+        }
+    }
+}
+
+#[test]
+fn netcdf_has_no_meshes_of_nothing() {
+    let error = |data: &MeshData| {
+        write_mesh_to(&mut Vec::new(), MeshFormat::Ugrid, &data.view(), "s").unwrap_err().to_string()
+    };
+    let mut data = MeshData::default();
+    assert_eq!(error(&data), "s: NetCDF-3 cannot hold a mesh without vertices");
+    data.mesh.vertices.push(DVec2::X);
+    assert_eq!(error(&data), "s: NetCDF-3 cannot hold a mesh without triangles");
+    data.heights = Some(vec![f64::NAN]);
+    let error = write_mesh_to(&mut Vec::new(), MeshFormat::Vtu, &data.view(), "s").unwrap_err();
+    assert_eq!(error.to_string(), "s: height of vertex 0 is NaN, which a mesh cannot hold");
 }
 
 #[test]

@@ -1,6 +1,7 @@
-//! Every kind of file that is written is read by a reader that is not ours: meshio, in
-//! a virtual environment of Python that is made once below `target/`. Of what meshio does
-//! not know, Triangle's formats, JSON, RON and pictures, Python itself is the reader.
+//! Every kind of file that is written is read by a reader that is not ours: meshio, netCDF4,
+//! shapely and py2dm, in a virtual environment of Python that is made once below `target/`. Of
+//! what these do not know, Triangle's formats, ADCIRC's, MODFLOW's, JSON, RON and pictures, Python
+//! itself is the reader.
 //!
 //! Without Python or a package registry this is skipped, and says so, unless
 //! `HEXDEL_REQUIRE_MESHIO` is set: then it fails. There is no test
@@ -11,14 +12,15 @@
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
-use hexdel_io::{MarkedEdge, MeshData, Promised, PromisedDomain, write_mesh};
+use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId, Voronoi};
+use hexdel_io::{MarkedEdge, MeshData, MeshFormat, Promised, PromisedDomain, write_dual, write_mesh};
 
 #[path = "support/python.rs"]
 mod python;
 
 /// What is installed. A new version must not break an old commit.
-const PACKAGES: [&str; 2] = ["meshio==5.3.5", "numpy<3"];
+const PACKAGES: [&str; 6] =
+    ["meshio==5.3.5", "numpy<3", "netCDF4<2", "shapely<3", "py2dm==0.1.1", "typing_extensions<5"];
 
 fn main() -> ExitCode {
     if python::is_asked_for_a_list() {
@@ -49,23 +51,35 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
+/// Vertices in a row of the sample.
+const N: usize = 7;
+
 /// Writes a mesh with everything in every format.
 fn write_all(folder: &Path, integers: bool) {
     let data = sample(integers);
-    let extensions =
-        ["vtu", "msh", "msh2", "mesh", "obj", "off", "ele", "edge", "neigh", "poly", "json", "ron", "svg"];
-    for extension in extensions.into_iter().chain(cfg!(feature = "png").then_some("png")) {
-        // Regions that are no integers are not for Medit.
-        if integers || extension != "mesh" {
-            write_mesh(folder.join("mesh").with_extension(extension), &data.view()).unwrap();
+    // Two names are of versions that share an extension, and two are of one format.
+    for name in MeshFormat::names().filter(|name| !["msh4", "medit", "node"].contains(name)) {
+        // Regions that are no integers are not for Medit and SMS.
+        if integers || !["mesh", "2dm"].contains(&name) {
+            write_mesh(folder.join("mesh").with_extension(name), &data.view()).unwrap();
         }
     }
+    // The dual of the same triangles with better angles.
+    let mut mesh = data.mesh.clone();
+    for (i, p) in mesh.vertices.iter_mut().enumerate() {
+        let [x, y] = [i % N, i / N].map(|i| i as f64);
+        *p = DVec2::new(0.1 + x - 0.4 * y, 0.9 * y + 0.01 * x * x);
+    }
+    let dual = Voronoi::new(&mesh).unwrap();
+    for name in ["vtu", "geojson", "wkt", "disv", "nc", "mpas.nc"] {
+        write_dual(folder.join(format!("dual.{name}")), &mesh, &dual).unwrap();
+    }
+    write_mesh(folder.join("dual.json"), &MeshData::new(mesh).view()).unwrap();
     write_mesh(folder.join("expected.json"), &data.view()).unwrap();
 }
 
 /// A grid of bent squares, halved, with coordinates of many digits and magnitudes.
 fn sample(integers: bool) -> MeshData {
-    const N: usize = 7;
     let at = |i: usize| {
         let (x, y) = ((i % N) as f64, (i / N) as f64);
         DVec2::new(x / 3.0 - 1e-3 * y * y, y * 1e-7 / 7.0 + x * x * 1e-9)
@@ -82,6 +96,7 @@ fn sample(integers: bool) -> MeshData {
     let count = data.mesh.vertices.len();
     data.input_indices = Some((0..count as u32).map(|i| (i % 3 > 0).then_some(u32::MAX - i)).collect());
     data.vertex_markers = Some((0..count as i32).map(|i| i % 5 - 2).collect());
+    data.heights = Some((0..count).map(|i| 0.1 * i as f64 - 1.0).collect());
     let region = |t: usize| (t * t % 4) as f64 + if integers || t.is_multiple_of(2) { 0.0 } else { 0.1 };
     data.regions = Some((0..data.mesh.triangles.len()).map(region).collect());
     let edge = |i: usize| MarkedEdge { ends: [i, i + 1].map(VertexId::new), marker: (i * i % 3) as i32 };

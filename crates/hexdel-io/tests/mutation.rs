@@ -50,6 +50,7 @@ fn mesh() -> MeshData {
     });
     data.input_indices = Some(vec![Some(0), None, Some(7), Some(1), None]);
     data.vertex_markers = Some(vec![1, 0, -3, 2, 1]);
+    data.heights = Some(vec![0.5, 0.0, -1e3, 7.0, 2.0]);
     data.regions = Some(vec![1.0, 2.5, 0.0]);
     data.marked_edges = Some(vec![
         MarkedEdge { ends: [0, 1].map(VertexId::new), marker: 4 },
@@ -74,7 +75,7 @@ fn graph() -> Pslg {
 fn meshed(format: &str) -> Vec<u8> {
     let mut out = Vec::new();
     let mut data = mesh();
-    if format == "mesh" {
+    if ["mesh", "2dm"].contains(&format) {
         data.regions = Some(vec![1.0, 2.0, 0.0]);
     }
     write_mesh_to(&mut out, MeshFormat::from_name(format).unwrap(), &data.view(), "s").unwrap();
@@ -151,6 +152,20 @@ fn targets() -> Vec<Target> {
         target("obj", vec![meshed("obj"), text(OBJ)]),
         target("off", vec![meshed("off"), text("COFF\n3 1 3\n0 0 0 1 1 1 1\n1 0 0\n0 1 0\n3 0 1 2 0.5\n")]),
         target("mesh", vec![meshed("mesh")]),
+        target(
+            "2dm",
+            vec![
+                meshed("2dm"),
+                text("MESH2D\nE3T 1 4 5 6 2\nND 4 0 0 1\nND 5 1 0 2\nND 6 0 1 3\nNS 4 5\nNS -6\n"),
+            ],
+        ),
+        target(
+            "14",
+            vec![
+                meshed("14"),
+                text("a\n1 3\n1 0 0 1\n2 1 0 1\n3 0 1 1\n1 3 1 2 3\n1\n2\n2\n1\n2\n1\n3\n3 1\n1\n2\n3\n"),
+            ],
+        ),
         target("asc", vec![text(RASTER)]),
         target("sizes", vec![text("# x y size\n1 2 0.5\n3,4;1e-3\n")]),
         target("ele", vec![text("3 3 1\n0 0 1 2 1.5\n1 1 2 3 0\n2 0 3 1 -2\n")]),

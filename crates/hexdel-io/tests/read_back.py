@@ -1,7 +1,7 @@
 """Reads the files that hexdel-io wrote with readers that are not ours.
 
-Called with a folder; `expected.json` in it is what was written. meshio reads what it
-knows, a few lines below what it does not: the text formats of Triangle (its own
+Called with a folder; `expected.json` in it is what was written. meshio, netCDF4, shapely and
+py2dm read what they know, a few lines below what they do not: the grids of ADCIRC and MODFLOW, the text formats of Triangle (its own
 reader of .node and .ele is TetGen's and takes three dimensions only), data of elements
 of .msh 2.2 beside groups, RON, and pictures.
 """
@@ -17,7 +17,10 @@ import xml.etree.ElementTree
 import zlib
 
 import meshio
+import netCDF4
 import numpy
+import py2dm
+import shapely
 
 folder = pathlib.Path(sys.argv[1])
 expected = json.loads((folder / "expected.json").read_text())
@@ -26,6 +29,7 @@ triangles = numpy.array(expected["triangles"])
 regions = numpy.array(expected["regions"])
 markers = numpy.array(expected["vertex_markers"])
 inputs = numpy.array([-1 if i is None else i for i in expected["input_indices"]])
+heights = numpy.array(expected["heights"])
 edges = numpy.array([edge["ends"] for edge in expected["marked_edges"]])
 edge_markers = numpy.array([edge["marker"] for edge in expected["marked_edges"]])
 exempt = numpy.isin(numpy.arange(len(triangles)), expected["promised"]["exempt"]).astype(float)
@@ -61,6 +65,7 @@ def vtu(path):
     same(blocks(mesh, "triangle"), triangles, path)
     same(mesh.point_data["marker"], markers, path)
     same(mesh.point_data["input_index"], inputs, path)
+    same(mesh.point_data["height"], heights, path)
     same(mesh.cell_data["region"][0], regions, path)
     same(mesh.field_data["hexdel_bounds"], [30, 90, 43.8978, 90], path)
     same(mesh.field_data["hexdel_exempt"], expected["promised"]["exempt"], path)
@@ -261,15 +266,211 @@ def svg(path):
     assert root.tag.endswith("svg"), path
 
 
+def vtk(path):
+    mesh = meshio.read(path)
+    same_bits(mesh.points, path)
+    same(blocks(mesh, "triangle"), triangles, path)
+    same(mesh.point_data["marker"].ravel(), markers, path)
+    same(mesh.point_data["input_index"].ravel(), inputs, path)
+    same(mesh.point_data["height"].ravel(), heights, path)
+    same(mesh.cell_data["region"][0].ravel(), regions, path)
+    range_deg = [mesh.cell_data[name][0] for name in ["min_angle", "max_angle"]]
+    assert numpy.all(range_deg[0] > 0) and numpy.all(range_deg[1] < 180), path
+
+
+def stl(path):
+    # meshio gives equal corners one number, so places are compared.
+    mesh = meshio.read(path)
+    same(mesh.points[blocks(mesh, "triangle")][:, :, :2], points[triangles], path)
+    same(mesh.cell_data["facet_normals"][0], [[0, 0, 1]] * len(triangles), path)
+
+
+def boundary():
+    """The edges of the boundary with the mesh on the left, with their markers, 0 if they have none."""
+    marker = {frozenset(ends): m for ends, m in zip(edges.tolist(), edge_markers.tolist())}
+    sides = [(t[k - 1], t[k]) for t in triangles.tolist() for k in range(3)]
+    return {side: marker.get(frozenset(side), 0) for side in sides if side[::-1] not in sides}
+
+
+def windows(nodes):
+    return list(zip(nodes, nodes[1:]))
+
+
+def sms(path):
+    with py2dm.Reader(str(path)) as mesh:
+        nodes = list(mesh.iter_nodes())
+        assert [node.id for node in nodes] == list(range(1, len(points) + 1)), path
+        same_bits(numpy.array([[node.x, node.y] for node in nodes]), path)
+        same([node.z for node in nodes], heights, path)
+        elements = list(mesh.iter_elements())
+        same([element.nodes for element in elements], triangles + 1, path)
+        same([element.materials[0] for element in elements], regions.astype(int), path)
+        found = {}
+        for string in mesh.iter_node_strings():
+            found |= {(a - 1, b - 1): int(string.name) for a, b in windows(string.nodes)}
+    assert found == {side: marker for side, marker in boundary().items() if marker != 0}, path
+
+
+def adcirc(path):
+    lines = [line.split("=")[0].split() for line in path.read_text().splitlines()[1:]]
+    rows = iter([[float(word) for word in line] for line in lines])
+    assert next(rows) == [len(triangles), len(points)], path
+    nodes = numpy.array([next(rows) for _ in points])
+    same(nodes[:, 0], numpy.arange(1, len(points) + 1), path)
+    same_bits(nodes[:, 1:3], path)
+    same(nodes[:, 3], -heights, path)
+    elements = numpy.array([next(rows) for _ in triangles])
+    same(elements[:, 1:], numpy.column_stack([[3] * len(triangles), triangles + 1]), path)
+    found = {}
+    for kind in ["open", "land"]:
+        [count], [total] = next(rows), next(rows)
+        for _ in range(int(count)):
+            length, *ibtype = next(rows)
+            nodes = [int(next(rows)[0]) - 1 for _ in range(int(length))]
+            assert kind == "open" or ibtype == [0], path
+            total -= length
+            found |= {side: kind for side in windows(nodes)}
+        assert total == 0, path
+    assert next(rows, None) is None, path
+    assert found == {side: "open" if marker < 0 else "land" for side, marker in boundary().items()}, path
+
+
+def ugrid(path):
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        assert file.data_model == "NETCDF3_64BIT_OFFSET" and file.Conventions == "CF-1.8 UGRID-1.0", path
+        mesh = file["mesh2d"]
+        assert mesh.cf_role == "mesh_topology" and mesh.topology_dimension == 2, path
+        same_bits(numpy.column_stack([file[name][:] for name in mesh.node_coordinates.split()]), path)
+        faces, ends = file[mesh.face_node_connectivity], file[mesh.edge_node_connectivity]
+        assert faces.start_index == ends.start_index == 0, path
+        same(faces[:], triangles, path)
+        sides = {frozenset((t[k - 1], t[k])) for t in triangles.tolist() for k in range(3)}
+        assert sorted(map(sorted, sides)) == ends[:].tolist(), path
+        marker = {frozenset(e): m for e, m in zip(edges.tolist(), edge_markers.tolist())}
+        same(file["mesh2d_edge_marker"][:], [marker.get(frozenset(e), 0) for e in ends[:].tolist()], path)
+        for name, values in [
+            ("node_z", heights), ("node_marker", markers), ("node_input_index", inputs), ("face_region", regions),
+        ]:
+            variable = file[f"mesh2d_{name}"]
+            assert variable.mesh == "mesh2d" and variable.location == name.split("_")[0], path
+            same(variable[:], values, path)
+
+
+def features(path):
+    return json.loads(path.read_text())["features"]
+
+
+def polygons(shapes, wanted, what):
+    """Rings are closed and counter-clockwise."""
+    for shape, ring in zip(shapes, wanted, strict=True):
+        assert shape.is_valid and shape.exterior.is_ccw and not shape.interiors, what
+        same(shapely.get_coordinates(shape, include_z=shape.has_z)[:-1], ring, what)
+
+
+def raised():
+    return numpy.column_stack([points, heights])[triangles]
+
+
+def geojson(path):
+    found = features(path)
+    polygons([shapely.geometry.shape(feature["geometry"]) for feature in found], raised(), path)
+    assert [feature["id"] for feature in found] == list(range(len(triangles))), path
+    same([feature["properties"]["region"] for feature in found], regions, path)
+    areas = [shapely.geometry.shape(feature["geometry"]).area for feature in found]
+    assert numpy.allclose([feature["properties"]["area"] for feature in found], areas, rtol=1e-9), path
+
+
+def wkt(path):
+    polygons(shapely.from_wkt(path.read_text().splitlines()), raised(), path)
+
+
+# The vertices that the duals are of.
+sites = numpy.array(json.loads((folder / "dual.json").read_text())["vertices"])
+
+
+def cells():
+    """The Voronoi cells, from the file that meshio reads: vertex, area, corners."""
+    mesh = meshio.read(folder / "dual.vtu")
+    rings = [mesh.points[ring][:, :2] for block in mesh.cells for ring in block.data]
+    columns = [numpy.concatenate(mesh.cell_data[name]) for name in ["vertex", "area"]]
+    return sorted(zip(*columns, rings), key=lambda cell: cell[0])
+
+
+def dual_vtu(path):
+    total = sum(area for _, area, _ in cells())
+    assert math.isclose(total, sum(shapely.area(shapely.polygons(sites[triangles]))), rel_tol=1e-9), path
+
+
+def dual_geojson(path):
+    found = features(path)
+    vertices, areas, rings = zip(*cells())
+    polygons([shapely.geometry.shape(feature["geometry"]) for feature in found], rings, path)
+    same([feature["properties"]["vertex"] for feature in found], vertices, path)
+    same([feature["properties"]["area"] for feature in found], areas, path)
+
+
+def dual_wkt(path):
+    polygons(shapely.from_wkt(path.read_text().splitlines()), [ring for *_, ring in cells()], path)
+
+
+def dual_disv(path):
+    blocks = {}
+    for line in path.read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["BEGIN"]:
+            block = blocks.setdefault(words[1], [])
+        elif words and words[0] not in ("#", "END"):
+            block.append(words)
+    assert blocks["DIMENSIONS"] == [["NLAY", "1"], ["NCPL", str(len(cells()))], ["NVERT", str(len(blocks["VERTICES"]))]]
+    corners = {row[0]: [float(c) for c in row[1:]] for row in blocks["VERTICES"]}
+    for i, (row, (vertex, _, ring)) in enumerate(zip(blocks["CELL2D"], cells(), strict=True)):
+        assert int(row[0]) == i + 1 and int(row[3]) == len(row) - 4, path
+        same([float(c) for c in row[1:3]], sites[vertex], path)
+        same([corners[corner] for corner in row[:3:-1]], ring, path)
+
+
+def dual_ugrid(path):
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        mesh = file["mesh2d"]
+        corners = numpy.column_stack([file[name][:] for name in mesh.node_coordinates.split()])
+        centres = numpy.column_stack([file[name][:] for name in mesh.face_coordinates.split()])
+        faces = file[mesh.face_node_connectivity]
+        rows = zip(faces[:], centres, file["mesh2d_face_area"][:], cells(), strict=True)
+        for face, centre, area, (vertex, area_wanted, ring) in rows:
+            same(corners[face[face != faces._FillValue]], ring, path)
+            same(centre, sites[vertex], path)
+            assert area == area_wanted, path
+
+
+def dual_mpas(path):
+    with netCDF4.Dataset(path) as file:
+        assert (file.on_a_sphere, file.sphere_radius) == ("NO", 0.0), path
+        same(numpy.column_stack([file[f"{axis}Cell"][:] for axis in "xy"]), sites, path)
+        same(numpy.concatenate([file["zCell"][:], file["zVertex"][:]]), numpy.zeros(len(sites) + len(triangles)), path)
+        same(file["cellsOnVertex"][:], triangles + 1, path)
+        centres = numpy.column_stack([file[f"{axis}Vertex"][:] for axis in "xy"])
+        to_corners = numpy.linalg.norm(sites[triangles] - centres[:, None], axis=2)
+        assert numpy.allclose(to_corners, to_corners[:, :1], rtol=1e-6), path
+        same(file["meshDensity"][:], numpy.ones(len(sites)), path)
+
+
+DUALS = {
+    "dual.vtu": dual_vtu, "dual.geojson": dual_geojson, "dual.wkt": dual_wkt, "dual.disv": dual_disv,
+    "dual.nc": dual_ugrid, "dual.mpas.nc": dual_mpas,
+}
+
 READERS = {
     ".vtu": vtu, ".msh": msh, ".msh2": msh2, ".mesh": medit, ".obj": plain, ".off": plain, ".node": node,
     ".ele": ele, ".edge": edge, ".neigh": neigh, ".poly": poly, ".json": json_mesh, ".ron": ron, ".svg": svg,
-    ".png": png,
+    ".png": png, ".vtk": vtk, ".stl": stl, ".2dm": sms, ".14": adcirc, ".nc": ugrid, ".geojson": geojson, ".wkt": wkt,
 }
 
 read = 0
 for path in sorted(folder.iterdir()):
-    if path.name != "expected.json":
-        READERS[path.suffix](path)
+    if path.name not in ("expected.json", "dual.json"):
+        DUALS.get(path.name, READERS.get(path.suffix))(path)
         read += 1
-print(f"{read} files as written, read by meshio {meshio.__version__} and numpy {numpy.__version__}")
+versions = ", ".join(f"{m.__name__} {m.__version__}" for m in (meshio, netCDF4, numpy, py2dm, shapely))
+print(f"{read} files as written, read by {versions}")

@@ -144,7 +144,7 @@ fn paths_that_cannot_be_written() {
     let error = write_mesh("no/such/folder/m.svg", &view).unwrap_err();
     assert!(matches!(error, WriteError::Io { .. }), "{error:?}");
     assert!(error.to_string().starts_with("no/such/folder/m.svg: "), "{error}");
-    let error = write_mesh("m.stl", &view).unwrap_err();
+    let error = write_mesh("m.xls", &view).unwrap_err();
     assert!(matches!(error, WriteError::UnknownExtension { .. }), "{error:?}");
     let error = write_mesh_to(&mut Vec::new(), MeshFormat::NodeEle, &view, "-").unwrap_err();
     assert!(matches!(error, WriteError::TwoFiles { .. }), "{error:?}");

@@ -1,6 +1,6 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
-use super::{Args, OverlapsName, Report, columns_line, limited, write};
+use super::{Args, OverlapsName, Report, columns_line, heights, heights_line, limited, write};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
@@ -94,6 +94,14 @@ impl Finished<'_> {
         if let Some(regions) = &regions {
             view = view.with_regions(regions);
         }
+        let heights = match self.numbered {
+            // Attributes are written as they are.
+            Some(_) => None,
+            None => heights(self.input, || Ok(made.vertex_attributes(&self.input.pslg)))?,
+        };
+        if let Some(heights) = &heights {
+            view = view.with_heights(heights);
+        }
         let promised = promised(made);
         if let Some(promised) = &promised {
             view = view.with_promised(promised);
@@ -133,6 +141,7 @@ impl Finished<'_> {
             graph.regions.len()
         );
         text.push_str(&columns_line(self.input));
+        text.push_str(&heights_line(self.input));
         self.list(&mut text, "repaired", &report.repairs);
         let without = made.edges_of_segment.iter().filter(|&&edges| edges == 0).count();
         let without = if without > 0 { format!(", {without} not in the domain") } else { String::new() };

@@ -29,8 +29,9 @@ pub(crate) use graph::{Finished, failure, place, warn_of_repairs, warn_of_warnin
     mut_arg("size", |arg| arg.hide(true).long("pixels")),
     override_usage = "hexdel mesh [OPTIONS] <INPUT> -o <FILE>...",
     after_help = "\
-Input: .node .poly .csv .tsv .xyz .txt .pts .geojson .wkt .json .ron, - with --format
-Output: .ele (with .node) .edge .neigh .poly .vtu .msh .obj .off .mesh .json .ron .svg .png
+Input: .node .poly .csv .tsv .xyz .txt .pts .geojson .wkt .shp .2dm .14 .json .ron, - with --format
+Output: .ele (with .node) .edge .neigh .poly .vtu .vtk .msh .obj .off .mesh .stl .2dm .14 .nc
+        .geojson .wkt .json .ron .svg .png
 Example: hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
 )]
 pub(crate) struct Args {
@@ -40,7 +41,7 @@ pub(crate) struct Args {
     /// File to write; may be given several times
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["report", "dual"])]
     output: Vec<PathBuf>,
-    /// File for the Voronoi dual: .vtu, or .v.node with .v.edge
+    /// File for the Voronoi dual: .vtu .geojson .wkt .disv .nc .mpas.nc .v.node
     #[arg(long, value_name = "FILE")]
     dual: Option<PathBuf>,
     /// hexagon, hull, box or inside [default: inside if segments, else hexagon]
@@ -80,7 +81,7 @@ pub(crate) struct Args {
     #[arg(hide_default_value = true)]
     overlaps: OverlapsName,
     /// Segment method: conform, or paper (keeps no bounds at segments)
-    #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true)]
+    #[arg(long, value_enum, value_name = "WAY", hide = true)]
     pslg: Option<PslgName>,
     /// Circumradius of the hexagon around points [default: the smallest]
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
@@ -331,6 +332,29 @@ impl<'a, T> Report<'a, T> {
 /// The line of a summary that says which columns were taken.
 fn columns_line(input: &PointFile) -> String {
     input.columns.as_ref().map_or_else(String::new, |columns| format!("columns    {columns}\n"))
+}
+
+/// The heights of vertices, which are among their attributes, if the points have heights.
+fn heights(
+    input: &PointFile,
+    of_vertices: impl FnOnce() -> Result<Vec<f64>, Failure>,
+) -> Result<Option<Vec<f64>>, Failure> {
+    let Some(place) = input.height_attribute else {
+        return Ok(None);
+    };
+    let column = of_vertices()?.into_iter().skip(place).step_by(input.pslg.attributes_per_point);
+    Ok(Some(column.collect()))
+}
+
+/// The line of a summary that says between what the heights of points are.
+fn heights_line(input: &PointFile) -> String {
+    let Some(place) = input.height_attribute else {
+        return String::new();
+    };
+    let of_points = input.pslg.point_attributes.iter().skip(place).step_by(input.pslg.attributes_per_point);
+    let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max]
+        .map(|pick| of_points.clone().copied().reduce(pick).unwrap_or_default());
+    format!("heights    {low} to {high} at points, linear between them\n")
 }
 
 /// Writes the mesh to all files, and its figures. The dual is that of the mesh beside

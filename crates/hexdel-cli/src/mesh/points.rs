@@ -1,6 +1,6 @@
 //! Points in a hexagon.
 
-use super::{Args, OverlapsName, Report, columns_line, limited, warn_ignored, write};
+use super::{Args, OverlapsName, Report, columns_line, heights, heights_line, limited, warn_ignored, write};
 use crate::exit::{Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
@@ -59,11 +59,15 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     let bounds = made.certificate.bounds;
     let domain = PromisedDomain::Hexagon;
     let promised = Promised { near: bounds, far: bounds, domain, exempt: Vec::new() };
-    let view = MeshView::new(&made.mesh)
+    let mut view = MeshView::new(&made.mesh)
         .with_input_indices(&inputs)
         .with_promised(&promised)
         .with_certificate(&made.certificate)
         .with_picture(picture);
+    let heights = heights(file, || made.vertex_attributes(input).map_err(|source| args.failure(source)))?;
+    if let Some(heights) = &heights {
+        view = view.with_heights(heights);
+    }
     // The dual in it takes more memory than the mesh.
     let report = args.report.is_some().then(|| made.report());
     write(outputs, (&view, &made.mesh), &Report::new(report.as_ref(), file))?;
@@ -97,7 +101,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
     // Writing to a string does not fail.
     let _ = write!(
         text,
-        "points     {}{duplicates}\n{}\
+        "points     {}{duplicates}\n{}{}\
          mesh       {} vertices, {} triangles, {} levels\n\
          angles     {:.4} to {:.4} degrees\n\
          shape      aspect ratio at most {:.5}, shortest edge {}{}\n\
@@ -106,6 +110,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
          seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
         certificate.inputs,
         columns_line(file),
+        heights_line(file),
         certificate.vertices,
         certificate.triangles,
         made.max_level,

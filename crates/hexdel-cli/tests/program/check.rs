@@ -187,7 +187,7 @@ fn bad_files_are_refused() {
     for (mesh, words) in [
         ("missing.ele", "no such file"),
         ("a.svg", "is written, not read"),
-        ("a.stl", "unknown extension"),
+        ("a.xls", "unknown extension"),
         ("a.ron", "not finite"),
         ("b.ron", "b.ron:1:"),
     ] {

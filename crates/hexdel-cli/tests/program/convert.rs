@@ -27,7 +27,9 @@ fn a_mesh_goes_around_all_formats() {
     // Either name of the pair, where only a mesh will do.
     bench.run("convert i.node k.off").fine();
     assert_eq!(bench.read("k.off"), bench.read("b.off"));
-    for name in ["l.edge", "l.neigh", "l.poly", "l.svg"] {
+    // Of nodes with triangles, if the output takes no points.
+    bench.run("convert i.node n.geojson").fine();
+    for name in ["l.edge", "l.neigh", "l.svg", "l.vtk", "l.stl", "l.nc", "l.geojson", "l.wkt", "l.poly"] {
         bench.run(&format!("convert d.msh {name}")).fine();
     }
     assert!(bench.read("l.poly").starts_with(b"3 2 0 0\n"));
@@ -94,7 +96,7 @@ fn what_is_lost_is_said_and_what_cannot_be_is_refused() {
     bench.file("p.csv", "1,2\n3,4\n");
     bench.run("convert p.csv p.vtu").refused("p.csv: contains points, which vtu cannot store");
     bench.run("convert p.csv p.wkt").refused("is read, not written");
-    bench.run("convert p.csv p.stl").refused("unknown extension");
+    bench.run("convert p.csv p.xls").refused("unknown extension");
     bench.run("convert p.csv p.csv").refused("belongs to the input");
     bench.run("convert none.obj p.off").refused("none.obj: no such file");
     bench.run("convert m.off m.svg --input-format svg").refused("is written, not read");
@@ -121,6 +123,62 @@ fn tables_are_what_their_names_say_and_losses_are_told() {
     bench.file("m.obj", OBJ);
     bench.run("convert m.obj m.ele --format node").fine();
     assert!(bench.read("m.node").starts_with(b"3 2 0 0\n"));
+}
+
+/// Boundaries of grids become marked edges, and nodes points.
+#[test]
+fn grids_of_hydrodynamics_are_meshes_and_points() {
+    let bench = Bench::new();
+    bench.file(
+        "a.json",
+        r#"{"vertices": [[0, 0], [1, 0], [0, 1]], "triangles": [[0, 1, 2]], "heights": [1, 2, 3.5]}"#,
+    );
+    for pair in [["a.json", "b.2dm"], ["b.2dm", "fort.14"], ["fort.14", "c.json"], ["fort.14", "d.vtu"]] {
+        let run = bench.run(&format!("convert {} {}", pair[0], pair[1]));
+        assert_eq!(run.code, 0, "{}", run.err);
+    }
+    let expected = "MESH2D\nNUM_MATERIALS_PER_ELEM 1\nE3T 1 1 2 3 1\nND 1 0.0 0.0 1.0\nND 2 1.0 0.0 2.0\n\
+        ND 3 0.0 1.0 3.5\nNS 1 2 3 -1 1\n";
+    assert_eq!(String::from_utf8(bench.read("b.2dm")).unwrap(), expected);
+    assert_eq!(bench.json("c.json")["heights"], serde_json::json!([1.0, 2.0, 3.5]));
+    let run = bench.run("convert fort.14 e.csv");
+    assert_eq!((run.code, run.err.as_str()), (0, "warning: e.csv: the format has no point attributes\n"));
+    assert_eq!(bench.read("e.csv"), b"x,y\n0.0,0.0\n1.0,0.0\n0.0,1.0\n");
+    assert!(bench.run("check b.2dm --min-angle 20").out.contains("1 triangles"));
+}
+
+/// Points keep their heights, others get theirs from between them.
+#[test]
+fn meshes_have_the_heights_of_points() {
+    let bench = Bench::new();
+    bench.file("a.csv", "x,y,depth\n0,0,-1\n1,0,-2\n0,1,-3.5\n");
+    let outline = r#"{"type": "Polygon", "coordinates": [[[0, 0, 1], [1, 0, 2], [0, 1, 3.5], [0, 0, 1]]]}"#;
+    bench.file("b.geojson", outline);
+    for input in ["a.csv", "b.geojson"] {
+        let run = bench.run(&format!("mesh {input} -o m.json -o m.14"));
+        run.fine();
+        assert!(run.out.contains("\nheights    1 to 3.5 at points, linear between them\n"), "{}", run.out);
+        let made = bench.json("m.json");
+        let rows = |name: &str| made[name].as_array().unwrap().clone();
+        for ((input, height), p) in rows("input_indices").iter().zip(rows("heights")).zip(rows("vertices")) {
+            let [height, x, y] = [&height, &p[0], &p[1]].map(|value| value.as_f64().unwrap());
+            let given = input.as_u64().map(|i| [1.0, 2.0, 3.5][i as usize]);
+            assert!(given.is_none_or(|given| given == height), "{given:?} {height}");
+            if x > 0.0 && y > 0.0 && x + y < 1.0 {
+                assert!((1.0 + x + 2.5 * y - height).abs() < 1e-12, "{x} {y} {height}");
+            }
+        }
+        bench.run("convert m.14 n.json").fine();
+        assert_eq!(bench.json("n.json")["heights"], made["heights"]);
+    }
+    // Some have none.
+    bench.file("c.csv", "x,y,z\n0,0,1\n1,0,\n0,1,3.5\n");
+    let run = bench.run("mesh c.csv -o c.json");
+    assert_eq!(
+        (run.code, run.err.as_str()),
+        (0, "warning: c.csv: 2 heights instead of 3; heights are left\n")
+    );
+    bench.run("mesh c.csv -o c.json --columns x,y,z").refused("c.csv:3: expected a height, found \"\"");
 }
 
 /// What a mesh of a map is warned of, its conversion to a format without polygons is.

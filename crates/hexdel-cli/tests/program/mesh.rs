@@ -145,7 +145,7 @@ fn bad_outputs_are_refused_before_anything_is_written() {
     std::fs::create_dir(bench.path("folder.svg")).unwrap();
     let before = bench.names();
     for (arguments, words) in [
-        ("p.txt -o a.ele -o a.stl", "a.stl: unknown extension"),
+        ("p.txt -o a.ele -o a.xls", "a.xls: unknown extension"),
         ("p.txt -o a.ele -o a.node", "two outputs of the same name"),
         ("p.txt -o a.svg --report ./a.svg", "two outputs of the same name"),
         ("p.txt -o folder.svg", "not a plain file"),

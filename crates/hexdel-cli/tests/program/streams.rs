@@ -70,7 +70,7 @@ fn streams_without_a_format_are_refused() {
     for (arguments, words) in [
         ("mesh - -o a.ele", "standard input has no extension"),
         ("mesh p.csv -o -", "standard output has no extension"),
-        ("mesh - -o a.ele --format stl", "possible values"),
+        ("mesh - -o a.ele --format xls", "possible values"),
         ("mesh - -o a.ele --format obj", "obj is not a format of points"),
         ("check -", "standard input has no extension"),
         ("check - --format svg", ""),

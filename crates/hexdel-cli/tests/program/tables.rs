@@ -18,7 +18,11 @@ fn input_points(bench: &Bench, name: &str) -> Vec<[f64; 2]> {
 fn headers_tell_the_columns_in_any_order() {
     let bench = Bench::new();
     for (table, told, first) in [
-        ("id_east_north", "x = Easting (column 2), y = Northing (column 3)", [500_000.5, 5_200_000.25]),
+        (
+            "id_east_north",
+            "x = Easting (column 2), y = Northing (column 3), z = Elev (column 4)",
+            [500_000.5, 5_200_000.25],
+        ),
         ("wellnames", "x = X_UTM (column 2), y = Y_UTM (column 3)", [500_000.5, 5_200_000.25]),
         ("latlon_header", "x = lon (column 3), y = lat (column 2)", [8.2, 47.1]),
     ] {

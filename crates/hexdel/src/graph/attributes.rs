@@ -1,8 +1,56 @@
 //! Attributes of vertices: those of the points given, and between them.
 
 use super::result::PslgTriangulation;
+use crate::error::Error;
+use crate::triangulation::Triangulation;
 use hexdel_geom::{DVec2, Pslg};
 use hexdel_pslg::{RepairReport, validate};
+
+impl Triangulation {
+    /// The attributes of each vertex in a row, as many as the points `given` have: their own,
+    /// linearly between them in their Delaunay triangulation, outside of it those of the nearest
+    /// place on its hull. None if the points have none.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Pslg};
+    /// let mut points = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::Y]);
+    /// (points.attributes_per_point, points.point_attributes) = (1, vec![0.0, 1.0, 2.0]);
+    /// let made = hexdel::triangulate(&points.points)?;
+    /// let values = made.vertex_attributes(&points)?;
+    /// assert_eq!(values[made.vertex_of_input[2].index()], 2.0);
+    /// assert!(values.iter().all(|value| (0.0..=2.0).contains(value)));
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Segments`] and the like if the points are so large or so close together that a graph
+    /// of them would not be meshed.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not one of the points given.
+    ///
+    /// # Complexity
+    ///
+    /// That of [`validate`], and near-linear in the mesh; outside of the hull a look at all of its
+    /// edges for each vertex.
+    pub fn vertex_attributes(&self, given: &Pslg) -> Result<Vec<f64>, Error> {
+        let n = given.attributes_per_point;
+        if n == 0 {
+            return Ok(Vec::new());
+        }
+        assert_eq!(given.points.len(), self.vertex_of_input.len(), "the points of the mesh");
+        let plane = validate(&Pslg::from_points(given.points.clone()))?;
+        let mut all = plane.interpolate(&given.point_attributes, n, &self.mesh.vertices);
+        // Of points at the same place the first counts.
+        for (i, vertex) in self.vertex_of_input.iter().enumerate().rev() {
+            let v = vertex.index();
+            all[v * n..(v + 1) * n].copy_from_slice(given.attributes(i));
+        }
+        Ok(all)
+    }
+}
 
 impl PslgTriangulation {
     /// The attributes of each vertex in a row, as many as the points `given` have: their own,

@@ -1,0 +1,123 @@
+//! Polygons for geographic information systems: triangles, or the Voronoi cells of vertices,
+//! as `GeoJSON` (RFC 7946) and as well-known text.
+//!
+//! Rings are closed and counter-clockwise. In `GeoJSON` each polygon is a feature whose `id` is
+//! the index of the triangle or vertex; well-known text has a polygon per line and no
+//! properties. Heights, if the mesh has them, are third coordinates.
+
+use std::io::{self, Write};
+
+use hexdel_geom::{DVec2, TriMesh, TriangleId, VertexId, Voronoi};
+
+use crate::angles::angle_range_deg;
+use crate::text::TextWriter;
+use crate::topology::counter_clockwise;
+use crate::view::MeshView;
+
+/// A corner, with its height if that is known.
+type Corner = (DVec2, Option<f64>);
+
+/// Writes the triangles as features with the properties `region`, if it is known, `area`, and
+/// `min_angle` and `max_angle` in degrees.
+pub(crate) fn write_geojson(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
+    let mut text = TextWriter::new(out);
+    begin_features(&mut text);
+    text.rows(0..view.mesh.triangles.len(), |text, t| {
+        let [a, b, c] = view.mesh.corners(TriangleId::new(t));
+        let [min, max] = angle_range_deg([a, b, c]);
+        text.text("{\"type\": \"Feature\", \"id\": ").integer(t).text(", \"properties\": {");
+        if let Some(regions) = view.regions {
+            property(text, "region", regions[t]).text(", ");
+        }
+        property(text, "area", ((b - a).perp_dot(c - a) * 0.5).abs()).text(", ");
+        property(text, "min_angle", min).text(", ");
+        property(text, "max_angle", max);
+        geometry(text, &triangle(view, t));
+    })?;
+    text.text("]}\n").finish()
+}
+
+/// Writes the cells as features with the properties `vertex`, its index, and `area`.
+pub(crate) fn write_dual_geojson(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
+    let mut text = TextWriter::new(out);
+    begin_features(&mut text);
+    text.rows(cells(mesh, dual), |text, (vertex, ring)| {
+        text.text("{\"type\": \"Feature\", \"id\": ").integer(vertex);
+        text.text(", \"properties\": {\"vertex\": ").integer(vertex).text(", ");
+        property(text, "area", dual.areas[vertex]);
+        geometry(text, &ring);
+    })?;
+    text.text("]}\n").finish()
+}
+
+/// Writes the triangles, each as a `POLYGON` on a line of its own.
+pub(crate) fn write_wkt(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
+    let mut text = TextWriter::new(out);
+    for t in 0..view.mesh.triangles.len() {
+        polygon(&mut text, &triangle(view, t))?;
+    }
+    text.finish()
+}
+
+/// Writes the cells, each as a `POLYGON` on a line of its own.
+pub(crate) fn write_dual_wkt(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
+    let mut text = TextWriter::new(out);
+    for (_, ring) in cells(mesh, dual) {
+        polygon(&mut text, &ring)?;
+    }
+    text.finish()
+}
+
+fn begin_features(text: &mut TextWriter<'_>) {
+    text.text("{\"type\": \"FeatureCollection\", \"features\": [");
+}
+
+/// The corners of a triangle, counter-clockwise.
+fn triangle(view: &MeshView<'_>, t: usize) -> [Corner; 3] {
+    counter_clockwise(view.mesh, t).map(|v| {
+        let v = v.index();
+        (view.mesh.vertices[v], view.heights.map(|heights| heights[v]))
+    })
+}
+
+/// The vertices that have a cell, with its corners.
+fn cells(mesh: &TriMesh, dual: &Voronoi<'_>) -> impl Iterator<Item = (usize, Vec<Corner>)> {
+    let cell = |v| dual.cell(VertexId::new(v)).into_iter().map(|p| (p, None)).collect();
+    (0..mesh.vertices.len()).map(move |v| (v, cell(v))).filter(|(_, ring): &(_, Vec<_>)| !ring.is_empty())
+}
+
+/// Writes a property, which is null if JSON has no such number.
+fn property<'t, 'w>(text: &'t mut TextWriter<'w>, name: &str, value: f64) -> &'t mut TextWriter<'w> {
+    text.text("\"").text(name).text("\": ");
+    if value.is_finite() { text.number(value) } else { text.text("null") }
+}
+
+/// Ends the properties of a feature and writes its geometry.
+fn geometry(text: &mut TextWriter<'_>, corners: &[Corner]) {
+    text.text("}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[");
+    for (i, (p, height)) in closed(corners).enumerate() {
+        text.text(if i == 0 { "[" } else { ", [" }).number(p.x).text(", ").number(p.y);
+        if let Some(height) = height {
+            text.text(", ").number(*height);
+        }
+        text.text("]");
+    }
+    text.text("]]}}");
+}
+
+fn polygon(text: &mut TextWriter<'_>, corners: &[Corner]) -> io::Result<()> {
+    let with_heights = corners.iter().any(|(_, height)| height.is_some());
+    text.text(if with_heights { "POLYGON Z ((" } else { "POLYGON ((" });
+    for (i, (p, height)) in closed(corners).enumerate() {
+        text.text(if i == 0 { "" } else { ", " }).number(p.x).text(" ").number(p.y);
+        if let Some(height) = height {
+            text.text(" ").number(*height);
+        }
+    }
+    text.text("))\n").breathe()
+}
+
+/// A ring ends where it begins.
+fn closed(corners: &[Corner]) -> impl Iterator<Item = &Corner> {
+    corners.iter().chain(corners.first())
+}
