@@ -203,7 +203,11 @@ class Dual:
         return _plot.dual(self, ax, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the dual to ``.vtu``, or ``.v.node`` with ``.v.edge``."""
+        """Writes the dual, by the extension of the file.
+
+        Cells: ``.vtu``, ``.geojson``, ``.wkt``, ``.nc`` (UGRID), ``.disv`` (MODFLOW 6).
+        Circumcentres: ``.v.node`` with ``.v.edge``. Both: ``.mpas.nc``.
+        """
         _hexdel.write_dual(path, self.mesh.vertices, self.mesh._corners())
 
     to_shapely = _clients.cells_to_shapely

@@ -57,10 +57,12 @@ def read(path: str | os.PathLike[str], *, columns: str | None = None) -> Mesh | 
     ----------
     path : path-like
         Meshes: ``.ele`` with ``.node``, ``.vtu``, ``.msh``, ``.obj``, ``.off``, ``.mesh``,
-        ``.json``, ``.ron``. Points and graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``,
-        ``.xyz``, ``.txt``, ``.pts``, ``.geojson``, ``.wkt``, ``.json``, ``.ron``.
+        ``.2dm``, ``.14``, ``.json``, ``.ron``. Points and graphs: ``.node``, ``.poly``,
+        ``.csv``, ``.tsv``, ``.xyz``, ``.txt``, ``.pts``, ``.geojson``, ``.geojsonl``,
+        ``.geojsons``, ``.ndjson``, ``.wkt``, ``.json``, ``.ron``.
     columns : str, optional
-        Columns of x and y in a table, by name or number from 1: ``"easting,northing"``.
+        Columns of x and y in a table, and of heights if there is a third, by name or number
+        from 1: ``"easting,northing"``. Heights are the ``point_attributes`` of the graph.
         Found out from the header unless said otherwise.
 
     Returns
@@ -123,8 +125,9 @@ def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False
     Parameters
     ----------
     path : path-like
-        Meshes: ``.ele`` with ``.node``, ``.edge``, ``.neigh``, ``.poly``, ``.vtu``, ``.msh``,
-        ``.obj``, ``.off``, ``.mesh``, ``.json``, ``.ron``, and pictures: ``.svg``, ``.png``.
+        Meshes: ``.ele`` with ``.node``, ``.edge``, ``.neigh``, ``.poly``, ``.vtu``, ``.vtk``,
+        ``.msh``, ``.obj``, ``.off``, ``.mesh``, ``.stl``, ``.2dm``, ``.14``, ``.nc`` (UGRID),
+        ``.geojson``, ``.wkt``, ``.json``, ``.ron``, and pictures: ``.svg``, ``.png``.
         Graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``, ``.xyz``, ``.json``, ``.ron``.
     what : Mesh, Graph, mapping or array_like
         A graph is a mapping of arguments of `mesh_pslg`, points are an array of shape (n, 2).

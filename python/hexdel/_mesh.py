@@ -63,6 +63,8 @@ class Mesh:
     regions : array_like, shape (m,), optional
         An attribute of each triangle.
     vertex_markers : array_like of int, shape (n,), optional
+    heights : array_like, shape (n,), optional
+        A height of each vertex, for files with heights or depths.
 
     Raises
     ------
@@ -90,6 +92,7 @@ class Mesh:
         *,
         regions: ArrayLike | None = None,
         vertex_markers: ArrayLike | None = None,
+        heights: ArrayLike | None = None,
     ) -> None:
         places = _arrays.points(vertices, "vertices")
         corners = _arrays.indices(triangles, 3, "triangles", "triangle", len(places))
@@ -98,6 +101,8 @@ class Mesh:
             data["regions"] = _arrays.numbers(regions, len(corners), "regions", "triangle").copy()
         if vertex_markers is not None:
             data["vertex_markers"] = _arrays.markers(vertex_markers, len(places), "vertex_markers", "vertex")
+        if heights is not None:
+            data["heights"] = _arrays.numbers(heights, len(places), "heights", "vertex").copy()
         self._fill(data)
 
     @classmethod
@@ -158,6 +163,14 @@ class Mesh:
             return markers
 
         return self._array("vertex_markers", made)
+
+    @property
+    def heights(self) -> Floats:
+        """The height of each vertex, shape (n,); 0 if heights are not known.
+
+        They are those of a file that was read, or given to the constructor.
+        """
+        return self._array("heights", lambda: np.zeros(len(self.vertices)))
 
     @property
     def segment_edges(self) -> Ints:
@@ -442,7 +455,14 @@ class Mesh:
         """The arrays as the compiled half takes them; those that are known."""
         raw = {
             name: self._data.get(name)
-            for name in ("input_of_vertex", "vertex_markers", "regions", "segment_edges", "segment_edge_markers")
+            for name in (
+                "input_of_vertex",
+                "vertex_markers",
+                "heights",
+                "regions",
+                "segment_edges",
+                "segment_edge_markers",
+            )
         }
         if raw["segment_edges"] is not None:
             raw["segment_edges"] = raw["segment_edges"].astype(np.uint32)

@@ -18,7 +18,7 @@ fn aside<T: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> T + Send + 's
 }
 
 /// Whether the extension of a file is that of meshes that are read, of graphs that are
-/// read. `.poly`, `.json` and `.ron` may be either.
+/// read. `.poly`, `.json`, `.ron`, `.2dm` and `.14` may be either.
 #[pyfunction]
 pub(crate) fn formats(path: PathBuf) -> (bool, bool) {
     let mesh = MeshFormat::from_path(&path).is_some_and(MeshFormat::is_read);
@@ -36,7 +36,7 @@ pub(crate) fn holds_mesh(path: PathBuf) -> PyResult<bool> {
 #[pyfunction]
 pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let read = aside(py, move || io::read_mesh_data(&path))?;
-    let MeshData { mesh, input_indices, vertex_markers, regions, marked_edges, .. } =
+    let MeshData { mesh, input_indices, vertex_markers, heights, regions, marked_edges, .. } =
         read.map_err(|error| errors::of_reading(py, &error))?;
     let dict = PyDict::new(py);
     dict.set_item("vertices", points_out(py, mesh.vertices)?)?;
@@ -44,6 +44,7 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
     let inputs = input_indices.map(|i| indices_out(py, i.into_iter().map(|i| i.map(|i| i as usize))));
     dict.set_item("input_of_vertex", inputs)?;
     dict.set_item("vertex_markers", vertex_markers.map(|m| m.into_pyarray(py)))?;
+    dict.set_item("heights", heights.map(|z| z.into_pyarray(py)))?;
     dict.set_item("regions", regions.map(|r| r.into_pyarray(py)))?;
     if let Some(edges) = marked_edges {
         let ends = edges.iter().map(|e| e.ends.map(|v| v.index() as i32)).collect();
@@ -119,6 +120,7 @@ pub(crate) struct MeshArrays<'py> {
     triangles: PyReadonlyArray2<'py, u32>,
     input_of_vertex: Option<PyReadonlyArray1<'py, i32>>,
     vertex_markers: Option<PyReadonlyArray1<'py, i32>>,
+    heights: Option<PyReadonlyArray1<'py, f64>>,
     regions: Option<PyReadonlyArray1<'py, f64>>,
     segment_edges: Option<PyReadonlyArray2<'py, u32>>,
     segment_edge_markers: Option<PyReadonlyArray1<'py, i32>>,
@@ -130,6 +132,7 @@ impl MeshArrays<'_> {
         let index = |i: &i32| u32::try_from(*i).ok();
         data.input_indices = self.input_of_vertex.as_ref().map(|a| a.as_array().iter().map(index).collect());
         data.vertex_markers = self.vertex_markers.as_ref().map(|a| a.as_array().to_vec());
+        data.heights = self.heights.as_ref().map(|a| a.as_array().to_vec());
         data.regions = self.regions.as_ref().map(|a| a.as_array().to_vec());
         if let (Some(edges), Some(markers)) = (&self.segment_edges, &self.segment_edge_markers) {
             let ends = crate::convert::rows_in::<u32, 2>(edges)?;

@@ -240,8 +240,9 @@ def test_pictures_for_notebooks(points):
     assert "43.9" in repr(mesh)
 
 
-@pytest.mark.parametrize("name", ["mesh.vtu", "mesh.msh", "mesh.json", "mesh.ron", "mesh.ele", "mesh.off", "mesh.obj"])
+@pytest.mark.parametrize("name", ["vtu", "msh", "json", "ron", "ele", "off", "obj", "2dm", "14"])
 def test_files_read_back(tmp_path, square, name):
+    name = f"mesh.{name}"
     corners, sides, holes = square
     mesh = hexdel.mesh_pslg(corners, sides, holes=holes, regions=[(0.5, 0.5, 3)])
     with warnings.catch_warnings():
@@ -252,6 +253,17 @@ def test_files_read_back(tmp_path, square, name):
     if name.endswith(("vtu", "json", "ron")):
         assert (again.regions == mesh.regions).all() and (again.input_of_vertex == mesh.input_of_vertex).all()
         assert (again.vertex_of_input == mesh.vertex_of_input).all() and (again.triangles == mesh.triangles).all()
+
+
+@pytest.mark.parametrize("name", ["mesh.vtu", "mesh.json", "mesh.2dm", "mesh.14"])
+def test_heights_read_back(tmp_path, name):
+    heights = [0.5, -1.0, 0.1]
+    mesh = hexdel.Mesh([(0, 0), (1, 0), (0, 1)], [(0, 1, 2)], heights=heights)
+    mesh.save(tmp_path / name)
+    assert hexdel.read(tmp_path / name).heights.tolist() == mesh.heights.tolist() == heights
+    assert hexdel.mesh([(0, 0), (1, 0)]).heights.max() == 0
+    with pytest.raises(hexdel.InputError):
+        hexdel.Mesh([(0, 0), (1, 0), (0, 1)], [(0, 1, 2)], heights=heights[:2])
 
 
 def test_what_a_format_loses_is_named(tmp_path, points):

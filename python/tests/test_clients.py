@@ -89,6 +89,17 @@ def test_xugrid(plate, tmp_path):
     assert (np.column_stack((again.node_x, again.node_y)) == plate.vertices).all()
     assert (opened["region"] == 3).all() and (opened["marker"].to_numpy() == plate.vertex_markers).all()
     opened.close()
+    plate.save(tmp_path / "own.nc")
+    opened = xugrid.open_dataset(tmp_path / "own.nc")
+    again = opened.ugrid.grid
+    assert (again.face_node_connectivity == plate.triangles).all() and again.n_edge == len(plate.edges)
+    assert (np.column_stack((again.node_x, again.node_y)) == plate.vertices).all()
+    assert (opened["mesh2d_face_region"] == 3).all()
+    opened.close()
+    plate.dual().save(tmp_path / "cells.nc")
+    opened = xugrid.open_dataset(tmp_path / "cells.nc")
+    assert np.allclose(opened.ugrid.grid.area, plate.dual().areas, rtol=1e-9)
+    opened.close()
     cells = plate.dual().to_xugrid()
     assert cells.n_face == len(plate.vertices)
     assert np.allclose(cells.area, plate.dual().areas, rtol=1e-9)
@@ -110,6 +121,11 @@ def test_flopy(plate, tmp_path):
     areas = [-0.5 * sum(x * b - a * y for (x, y), (a, b) in zip(ring, ring[1:] + ring[:1])) for ring in rings(disv)]
     # Clockwise, as MODFLOW wants them, and the control volumes of the dual.
     assert np.allclose(areas, plate.dual().areas, rtol=1e-9)
+    # The package as hexdel writes it.
+    plate.dual().save(tmp_path / "plate.disv")
+    again = flopy.mf6.MFSimulation.load(sim_ws=tmp_path, verbosity_level=0).get_model("plate").modelgrid
+    assert again.ncpl == grid.ncpl and (again.nvert, again.nlay) == (grid.nvert, 1)
+    assert np.allclose(np.column_stack((again.xcellcenters, again.ycellcenters)), plate.vertices)
 
 
 def rings(disv):

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
     Meshes    .ele (with .node), .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron; written only:\n          \
     .edge, .neigh, .poly, .vtk, .stl, .nc, .geojson, .wkt, .svg, .png\n\
     Points    .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron; read only: .geojson,\n          \
-    .geojsonl, .geojsons, .ndjson, .wkt, .2dm, .14, .json of CG:SHOP\n\
+    .geojsonl, .geojsons, .ndjson, .wkt, .shp, .2dm, .14, .json of CG:SHOP\n\
     A .node is read as a mesh only if the output can be nothing else. Markers, regions and\n\
     marked edges are kept if the format has them; a warning names what is lost.\n\n\
     Examples:\n  \
@@ -196,7 +196,7 @@ impl Args {
 }
 
 const READABLE: &str = ".node, .ele, .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron, .poly, .csv, .tsv, \
-    .xyz, .txt, .pts, .geojson, .geojsonl, .geojsons, .ndjson, .wkt";
+    .xyz, .txt, .pts, .geojson, .geojsonl, .geojsons, .ndjson, .wkt, .shp";
 
 const WRITABLE: &str = ".node, .ele, .edge, .neigh, .poly, .vtu, .vtk, .msh, .obj, .off, .mesh, .stl, .2dm, .14, \
     .nc, .geojson, .wkt, .json, .ron, .svg, .csv, .tsv, .xyz, .txt, .pts";

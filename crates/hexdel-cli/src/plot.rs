@@ -19,7 +19,7 @@ use std::path::PathBuf;
     hexdel plot mesh.ele -o mesh.svg --histogram\n  \
     hexdel plot mesh.ele -o corner.png --colour largest --zoom 0,0,0.5,0.5 --size 2000")]
 pub(crate) struct Args {
-    /// Mesh: .ele (with the .node beside it), .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron
+    /// Mesh: .ele (with its .node), .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron
     mesh: PathBuf,
     /// Picture to write, .svg or .png; may be given several times
     #[arg(short, long, value_name = "FILE", required = true)]

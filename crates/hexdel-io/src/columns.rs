@@ -127,6 +127,8 @@ pub struct TakenColumns {
     pub z: Option<TakenColumn>,
     /// Whether heights are depths, of which the negative is taken.
     pub depths: bool,
+    /// Whether their names are those of longitudes and latitudes.
+    pub degrees: bool,
     /// Whether numbers had decimal commas.
     pub decimal_commas: bool,
 }
@@ -196,6 +198,11 @@ const IDS: [&str; 9] = ["id", "fid", "oid", "objectid", "gid", "index", "nr", "n
 fn meaning(name: &str) -> Option<(usize, bool)> {
     let word = core(name)?;
     of_word(&word).or_else(|| of_word(without_around(&word)?))
+}
+
+/// Whether a name is that of longitudes or latitudes.
+pub(crate) fn names_degrees(name: &str) -> bool {
+    meaning(name).is_some_and(|(pair, _)| PAIRS[pair].0.contains(&"lon"))
 }
 
 /// The one word of a name that is not around others, in lower case.

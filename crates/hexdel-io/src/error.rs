@@ -79,7 +79,7 @@ pub enum ReadError {
         line: u64,
         /// Where in the line, in bytes from 1; 0 if it is not known.
         column: u64,
-        /// "point", "hole" or "region".
+        /// "point", "hole", "region" or "record".
         item: &'static str,
         /// Its index, counted as the file does (from 0 in tables).
         index: u64,
@@ -292,6 +292,16 @@ pub enum ReadError {
         /// How many there are; counting ends at a thousand.
         count: u64,
     },
+    /// A shapefile is not as its format wants it.
+    #[error("{}: {message}", at_record(file, *record))]
+    Shapefile {
+        /// The file.
+        file: String,
+        /// The record, counted from 1; 0 in what stands before all records.
+        record: u64,
+        /// What is wrong.
+        message: String,
+    },
     /// A raster is not as its format wants it.
     #[error("{file}:{line}: {message}")]
     Raster {
@@ -313,6 +323,7 @@ impl ReadError {
             | Self::UnknownExtension { .. }
             | Self::TwoFiles { .. }
             | Self::WriteOnly { .. }
+            | Self::Shapefile { .. }
             | Self::Layout { .. } => 0,
             Self::NotUtf8 { line, .. }
             | Self::LineTooLong { line, .. }
@@ -388,6 +399,14 @@ fn at_column(file: &str, line: u64, column: u64) -> String {
     match line {
         0 => file.to_owned(),
         _ => format!("{file}:{line}:{column}"),
+    }
+}
+
+/// File and, if it is known, record.
+fn at_record(file: &str, record: u64) -> String {
+    match record {
+        0 => file.to_owned(),
+        _ => format!("{file}: record {record}"),
     }
 }
 

@@ -34,6 +34,9 @@ pub enum PointFormat {
     TwoDm,
     /// The nodes of a grid of ADCIRC, `fort.14`, with their heights. Read only.
     Fort14,
+    /// A shapefile, `.shp`. Read only, with the feature `shapefile`.
+    #[cfg(feature = "shapefile")]
+    Shapefile,
 }
 
 /// Names of formats, with what they name.
@@ -58,6 +61,8 @@ const POINT_NAMES: Names<PointFormat> = &[
     ("ron", PointFormat::Ron),
     ("2dm", PointFormat::TwoDm),
     ("14", PointFormat::Fort14),
+    #[cfg(feature = "shapefile")]
+    ("shp", PointFormat::Shapefile),
 ];
 
 const MESH_NAMES: Names<MeshFormat> = &[
@@ -93,8 +98,13 @@ impl PointFormat {
     pub const EXTENSIONS: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron";
 
     /// The extensions that points are read from, for messages.
-    pub const READABLE: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .geojsonl, .geojsons, .ndjson, \
-        .wkt, .json, .ron, .2dm, .14";
+    pub const READABLE: &str = if cfg!(feature = "shapefile") {
+        ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .geojsonl, .geojsons, .ndjson, .wkt, .json, .ron, \
+         .2dm, .14, .shp"
+    } else {
+        ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .geojsonl, .geojsons, .ndjson, .wkt, .json, .ron, \
+         .2dm, .14"
+    };
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
@@ -138,7 +148,7 @@ impl PointFormat {
 
     /// Whether the format can be written.
     pub fn is_written(self) -> bool {
-        !matches!(self, Self::GeoJson | Self::Wkt | Self::CgShop | Self::TwoDm | Self::Fort14)
+        matches!(self, Self::Node | Self::Poly | Self::Table | Self::Csv | Self::Tsv | Self::Json | Self::Ron)
     }
 }
 

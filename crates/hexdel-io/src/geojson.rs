@@ -21,15 +21,34 @@ use crate::shapes::{Features, GraphBuilder, Place, Shape};
 /// Reads a text.
 pub(crate) fn read_geojson(source: &Source<'_>) -> Result<Features, ReadError> {
     let mut builder = GraphBuilder::new(source.file);
-    sequence(source, |object| {
-        let features = match object {
+    let mut has_system = false;
+    sequence(source, |document: Document| {
+        has_system |= document.has_system;
+        let features = match document.object {
             Object::Features(features) => features,
             Object::Shape(Shape::Collection(shapes)) => shapes,
             Object::Shape(shape) => vec![shape],
         };
         features.into_iter().try_for_each(|shape| builder.feature(shape, 0))
     })?;
-    Ok(builder.finish())
+    Ok(builder.finish().with_degrees(!has_system))
+}
+
+/// What a text is made of: an object, and whether it names a coordinate system.
+#[derive(serde::Deserialize)]
+#[serde(try_from = "Members")]
+struct Document {
+    object: Object,
+    has_system: bool,
+}
+
+impl TryFrom<Members> for Document {
+    type Error = &'static str;
+
+    fn try_from(members: Members) -> Result<Self, Self::Error> {
+        let has_system = members.crs.is_some();
+        Ok(Self { object: members.try_into()?, has_system })
+    }
 }
 
 /// An object of `GeoJSON`.
@@ -53,6 +72,9 @@ struct Members {
     geometry: Option<Box<Object>>,
     #[serde(default)]
     features: Option<Vec<Object>>,
+    /// The coordinate system, which is not in the standard any more.
+    #[serde(default)]
+    crs: Option<IgnoredAny>,
 }
 
 #[derive(Clone, Copy, PartialEq, serde::Deserialize)]
@@ -261,6 +283,16 @@ mod tests {
         }
         let nowhere = r#"{"type":"FeatureCollection","features":[{"type":"Feature","geometry":null}]}"#;
         assert_eq!(read(nowhere).unwrap(), Pslg::default());
+    }
+
+    #[test]
+    fn degrees_are_what_the_standard_says_unless_the_file_does() {
+        let degrees = |place: &str, more: &str| {
+            let text = format!("{{\"type\":\"Point\",\"coordinates\":{place}{more}}}");
+            read_geojson(&Source { bytes: text.as_bytes(), file: "f" }).unwrap().degrees()
+        };
+        assert!(degrees("[-180,90]", "") && !degrees("[500000,50]", ""));
+        assert!(!degrees("[1,2]", ",\"crs\":{\"type\":\"name\"}"));
     }
 
     #[test]

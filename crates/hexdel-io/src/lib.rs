@@ -9,8 +9,10 @@
 //! | `.node` | Triangle's points | yes | yes |
 //! | `.poly` | Triangle's planar straight-line graph | yes | yes |
 //! | `.csv` `.tsv` `.xyz` `.txt` `.pts` | text tables | yes | yes |
-//! | `.geojson` | `GeoJSON` | yes | |
+//! | `.geojson` | `GeoJSON`, and sequences of it | yes | |
 //! | `.wkt` | well-known text | yes | |
+//! | `.shp` | shapefiles, with the feature `shapefile` | yes | |
+//! | `.2dm` `.14` | nodes of meshes of SMS and ADCIRC | yes | |
 //! | `.json` | a [`Pslg`](hexdel_geom::Pslg); instances of CG:SHOP 2025 | yes | the former |
 //! | `.ron` | a [`Pslg`](hexdel_geom::Pslg) in Rusty Object Notation | yes | yes |
 //!
@@ -23,9 +25,15 @@
 //! | `.obj` | Wavefront | yes | yes |
 //! | `.off` | Geomview | yes | yes |
 //! | `.mesh` | Medit in text | yes | yes |
+//! | `.2dm` | SMS | yes | yes |
+//! | `.14` | ADCIRC, `fort.14` | yes | yes |
+//! | `.nc` | UGRID in NetCDF-3 | | yes |
+//! | `.vtk` | VTK's legacy format | | yes |
+//! | `.stl` | stereolithography | | yes |
+//! | `.geojson` `.wkt` | triangles as polygons | | yes |
 //! | `.json` `.ron` | a [`TriMesh`](hexdel_geom::TriMesh) and its data | yes | yes |
 //! | `.svg` `.png` | pictures, [`Picture`] | | yes |
-//! | `.vtu`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh, by [`write_dual`] | | yes |
+//! | `.vtu` `.geojson` `.wkt` `.nc` `.disv` `.mpas.nc`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh, by [`write_dual`] | | yes |
 //!
 //! Points go through [`read_points`], or a [`PointReader`] that says more, and [`write_points`], meshes through
 //! [`read_mesh_data`] and [`write_mesh`], streams through [`read_points_from`],
@@ -88,6 +96,8 @@ mod promised;
 mod read;
 mod scene;
 mod second_order;
+#[cfg(feature = "shapefile")]
+mod shapefile;
 mod shapes;
 mod sizes;
 mod stl;

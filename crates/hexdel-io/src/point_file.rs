@@ -31,6 +31,9 @@ pub struct PointFile {
     /// Which of the attributes of points is their height, upwards, if the file says so: a column of
     /// that name, third coordinates, or nodes with heights.
     pub height_attribute: Option<usize>,
+    /// Whether coordinates seem to be longitudes and latitudes, which are taken as they are: by the names of
+    /// columns, or in `GeoJSON` without `crs` that lies within 180 and 90 degrees.
+    pub degrees: bool,
     /// The number of the first point: 0, or 1 in a file of Triangle's that counts from 1.
     pub first_number: u32,
     /// Of a `.poly` file, the line of each hole.
@@ -147,7 +150,8 @@ impl PointReader {
             PointFormat::Table | PointFormat::Csv | PointFormat::Tsv => {
                 let (read, columns) = table::read_table(reader, name, self.columns.as_ref())?;
                 let file = self.features(read, name)?;
-                return Ok(PointFile { columns, ..file });
+                let degrees = columns.as_ref().is_some_and(|columns| columns.degrees);
+                return Ok(PointFile { columns, degrees, ..file });
             }
             PointFormat::Wkt => return self.features(wkt::read_wkt(reader, name)?, name),
             PointFormat::GeoJson => {
@@ -155,6 +159,10 @@ impl PointReader {
             }
             PointFormat::Json => {
                 return self.features(read_all(graph_json::read_any_json, reader, name)?, name);
+            }
+            #[cfg(feature = "shapefile")]
+            PointFormat::Shapefile => {
+                return self.features(read_all(crate::shapefile::read_shapefile, reader, name)?, name);
             }
             PointFormat::CgShop => read_all(graph_json::read_cgshop, reader, name)?,
             PointFormat::Ron => read_all(graph_ron::read_graph_ron, reader, name)?,
@@ -173,8 +181,9 @@ impl PointReader {
             Err(_) if self.strict => None,
             Err(fault) => mends.forgive("heights are left", || fault).map(|()| None)?,
         };
+        let degrees = features.degrees();
         let file = PointFile::with_heights(features.pslg, heights);
-        Ok(PointFile { warnings: mends.into_warnings(), ..file })
+        Ok(PointFile { warnings: mends.into_warnings(), degrees, ..file })
     }
 
     fn poly(

@@ -44,11 +44,13 @@ pub(crate) struct Features {
     pub(crate) pslg: Pslg,
     /// The height of each point, the first that is given; empty if there are no shapes.
     heights: Vec<Option<f64>>,
+    /// Whether coordinates must be longitudes and latitudes by the format.
+    are_degrees: bool,
 }
 
 impl From<Pslg> for Features {
     fn from(pslg: Pslg) -> Self {
-        Self { pslg, heights: Vec::new() }
+        Self { pslg, heights: Vec::new(), are_degrees: false }
     }
 }
 
@@ -56,7 +58,18 @@ impl Features {
     /// Points alone, each of its own.
     pub(crate) fn points(places: &[Place]) -> Self {
         let pslg = Pslg::from_points(places.iter().map(|place| place.at).collect());
-        Self { pslg, heights: places.iter().map(|place| place.height).collect() }
+        Self { pslg, heights: places.iter().map(|place| place.height).collect(), are_degrees: false }
+    }
+
+    /// The same if coordinates are longitudes and latitudes by the format.
+    pub(crate) fn with_degrees(self, are_degrees: bool) -> Self {
+        Self { are_degrees, ..self }
+    }
+
+    /// Whether coordinates are longitudes and latitudes, by the format and by what they are.
+    pub(crate) fn degrees(&self) -> bool {
+        let is_on_earth = |p: &DVec2| p.x.abs() <= 180.0 && p.y.abs() <= 90.0;
+        self.are_degrees && self.pslg.points.iter().all(is_on_earth)
     }
 
     /// The heights, if each point has one and they are not all 0; an error if only some have.
@@ -185,7 +198,7 @@ impl GraphBuilder {
         if self.pslg.segments.is_empty() {
             self.pslg.segment_markers.clear();
         }
-        Features { pslg: self.pslg, heights: self.heights }
+        Features { pslg: self.pslg, heights: self.heights, are_degrees: false }
     }
 
     fn too_many(&self, section: &'static str, line: u64, limit: u64) -> ReadError {

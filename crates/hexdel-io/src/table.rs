@@ -14,7 +14,8 @@ use std::io::BufRead;
 use hexdel_geom::Pslg;
 
 use crate::columns::{
-    Column, Columns, TakenColumn, TakenColumns, by_names, heights_by_name, names_depths, names_id,
+    Column, Columns, TakenColumn, TakenColumns, by_names, heights_by_name, names_degrees, names_depths,
+    names_id,
 };
 use crate::error::ReadError;
 use crate::lines::{Comments, Lines, Row};
@@ -140,7 +141,9 @@ impl Table {
         };
         let (x, y, z) = (taken(columns[0]), taken(columns[1]), heights.map(taken));
         let depths = z.as_ref().and_then(|z| names_depths(z.name.as_ref()?)) == Some(true);
-        let taken = TakenColumns { x, y, z, depths, decimal_commas: false };
+        let named = |column: &TakenColumn| column.name.as_deref().is_some_and(names_degrees);
+        let degrees = named(&x) && named(&y);
+        let taken = TakenColumns { x, y, z, depths, degrees, decimal_commas: false };
         let needs_heights = asked.is_some_and(|asked| asked.z.is_some());
         // Who names columns by number has seen the rows.
         let by_number = matches!(
@@ -497,6 +500,8 @@ mod tests {
         };
         assert_eq!(columns("a,b\n1,2", "a,c"), "t:1: no column c, there are \"a, b\"");
         assert_eq!(columns("a,b\n1,2", "1,3"), "t:1: no column 3, there are \"a, b\"");
+        let degrees = |text: &str| read_table(text.as_bytes(), "t", None).unwrap().1.unwrap().degrees;
+        assert!(degrees("GPS Lat,GPS Long\n1,2\n") && !degrees("x,y\n1,2\n") && !degrees("1,2\n"));
         let zero = Columns { x: Column::Number(0), y: Column::Number(2), z: None };
         for (text, there) in [("a,b\n1,2", "\"a, b\""), ("1,2\n3,4", "2 columns and no header")] {
             let error = read_table(text.as_bytes(), "t", Some(&zero)).unwrap_err();

@@ -137,11 +137,7 @@ fn write_graph(out: &mut dyn Write, format: PointFormat, pslg: &Pslg) -> io::Res
         PointFormat::Json => graph_json::write_graph(out, pslg),
         PointFormat::Ron => graph_ron::write_graph_ron(out, pslg),
         // Refused by `check_points`.
-        PointFormat::GeoJson
-        | PointFormat::Wkt
-        | PointFormat::CgShop
-        | PointFormat::TwoDm
-        | PointFormat::Fort14 => Err(io::ErrorKind::Unsupported.into()),
+        _ => Err(io::ErrorKind::Unsupported.into()),
     }
 }
 

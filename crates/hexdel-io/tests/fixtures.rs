@@ -108,3 +108,47 @@ fn missing_files_and_unknown_extensions() {
     let error = read_points(&path).unwrap_err();
     assert!(matches!(error, ReadError::Io { .. }), "{error:?}");
 }
+
+/// As pyshp writes them.
+#[cfg(feature = "shapefile")]
+mod shapefiles {
+    use super::*;
+    use hexdel_io::{PointFormat, PointReader, read_points_from};
+
+    #[test]
+    fn rings_are_put_together() {
+        let pslg = read_points(fixture("formats/areas.shp")).unwrap();
+        let shapes: Vec<_> = pslg.polygons.iter().map(|p| (p.attribute, p.rings.len())).collect();
+        assert_eq!(shapes, [(1.0, 2), (1.0, 2), (3.0, 1)]);
+        let corner = |polygon: usize, ring: usize| {
+            let first = pslg.segments[pslg.polygons[polygon].rings[ring][0] as usize];
+            pslg.points[first[0] as usize]
+        };
+        // Each hole in the island that is around it; the record between is empty.
+        assert_eq!([corner(0, 1), corner(1, 1)], [DVec2::ONE, DVec2::new(7.0, 1.0)]);
+        // The sides that the last square shares with the islands are there once, where they are whole.
+        assert_eq!((pslg.points.len(), pslg.segments.len()), (18, 20));
+    }
+
+    #[test]
+    fn third_coordinates_are_heights() {
+        for (name, heights) in [("soundings", vec![-1.5, -2.0, -7.25]), ("rivers", vec![1.0, 2.0, 3.0, 4.0])]
+        {
+            let file = PointReader::new().read(fixture(&format!("formats/{name}.shp"))).unwrap();
+            assert_eq!((file.height_attribute, file.pslg.point_attributes), (Some(0), heights));
+            assert_eq!(file.pslg.segments.len(), if name == "rivers" { 3 } else { 0 });
+        }
+    }
+
+    #[test]
+    fn faults_name_their_record() {
+        let bytes = std::fs::read(fixture("formats/soundings.shp")).unwrap();
+        let error =
+            |bytes: &[u8]| read_points_from(bytes, PointFormat::Shapefile, "f").unwrap_err().to_string();
+        assert!(error(&bytes[..200]).starts_with("f: record 3: "), "{}", error(&bytes[..200]));
+        assert!(error(b"x,y\n1,2\n").starts_with("f: "));
+        let mut infinite = bytes;
+        infinite[112..120].copy_from_slice(&f64::INFINITY.to_le_bytes());
+        assert_eq!(error(&infinite), "f: coordinate inf of record 1 is not finite");
+    }
+}

@@ -170,6 +170,12 @@ fn targets() -> Vec<Target> {
         target("sizes", vec![text("# x y size\n1 2 0.5\n3,4;1e-3\n")]),
         target("ele", vec![text("3 3 1\n0 0 1 2 1.5\n1 1 2 3 0\n2 0 3 1 -2\n")]),
     ]);
+    if cfg!(feature = "shapefile") {
+        let fixture = |name| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/formats").join(name);
+        let samples =
+            ["areas.shp", "rivers.shp", "soundings.shp"].map(|name| std::fs::read(fixture(name)).unwrap());
+        rest.push(target("shp", samples.to_vec()));
+    }
     rest
 }
 

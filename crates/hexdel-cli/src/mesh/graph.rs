@@ -1,6 +1,6 @@
 //! Graphs of points and segments, and points in other domains than a hexagon.
 
-use super::{Args, OverlapsName, Report, columns_line, heights, heights_line, limited, write};
+use super::{Args, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, write};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
@@ -142,6 +142,7 @@ impl Finished<'_> {
         );
         text.push_str(&columns_line(self.input));
         text.push_str(&heights_line(self.input));
+        text.push_str(&degrees_line(self.input));
         self.list(&mut text, "repaired", &report.repairs);
         let without = made.edges_of_segment.iter().filter(|&&edges| edges == 0).count();
         let without = if without > 0 { format!(", {without} not in the domain") } else { String::new() };

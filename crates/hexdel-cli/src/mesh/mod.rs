@@ -324,7 +324,8 @@ struct Report<'a, T> {
 impl<'a, T> Report<'a, T> {
     fn new(figures: Option<&'a T>, input: &PointFile) -> Self {
         let columns = input.columns.as_ref().map(ToString::to_string);
-        let input_warnings = input.warnings.iter().map(ToString::to_string).collect();
+        let degrees = input.degrees.then(|| DEGREES.to_owned());
+        let input_warnings = input.warnings.iter().map(ToString::to_string).chain(degrees).collect();
         Self { figures, columns, input_warnings }
     }
 }
@@ -355,6 +356,14 @@ fn heights_line(input: &PointFile) -> String {
     let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max]
         .map(|pick| of_points.clone().copied().reduce(pick).unwrap_or_default());
     format!("heights    {low} to {high} at points, linear between them\n")
+}
+
+/// Said of longitudes and latitudes.
+const DEGREES: &str = "degrees are treated as plane coordinates; project them first";
+
+/// The line of a summary that warns of longitudes and latitudes.
+fn degrees_line(input: &PointFile) -> String {
+    if input.degrees { format!("warning    {DEGREES}\n") } else { String::new() }
 }
 
 /// Writes the mesh to all files, and its figures. The dual is that of the mesh beside

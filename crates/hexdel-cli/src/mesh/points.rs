@@ -1,6 +1,9 @@
 //! Points in a hexagon.
 
-use super::{Args, OverlapsName, Report, columns_line, heights, heights_line, limited, warn_ignored, write};
+use super::{
+    Args, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, warn_ignored,
+    write,
+};
 use crate::exit::{Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::plot::Colour;
@@ -101,7 +104,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
     // Writing to a string does not fail.
     let _ = write!(
         text,
-        "points     {}{duplicates}\n{}{}\
+        "points     {}{duplicates}\n{}{}{}\
          mesh       {} vertices, {} triangles, {} levels\n\
          angles     {:.4} to {:.4} degrees\n\
          shape      aspect ratio at most {:.5}, shortest edge {}{}\n\
@@ -111,6 +114,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
         certificate.inputs,
         columns_line(file),
         heights_line(file),
+        degrees_line(file),
         certificate.vertices,
         certificate.triangles,
         made.max_level,

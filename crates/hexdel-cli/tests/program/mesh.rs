@@ -129,7 +129,7 @@ fn bad_inputs_are_refused_and_nothing_is_written() {
         ("noise.csv", "noise.csv:1: not UTF-8"),
         ("huge.txt", "huge.txt: point 1 at"),
         ("close.txt", "close.txt: points 0 at"),
-        ("points.shp", "points.shp: unknown extension"),
+        ("points.xls", "points.xls: unknown extension"),
     ] {
         bench.run(&format!("mesh {input} -o new/a.ele -o new/a.svg --report r.json")).refused(words);
         assert_eq!(bench.names(), before, "{input}");
