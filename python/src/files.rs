@@ -189,7 +189,7 @@ pub(crate) fn write_dual(
     let mesh = sound_mesh_in(&vertices, &triangles)?;
     let written = aside(py, move || {
         let dual = hexdel::geom::Voronoi::new(&mesh)?;
-        Ok::<_, hexdel::geom::VoronoiError>(io::write_dual(&path, &mesh, &dual))
+        Ok::<_, hexdel::geom::VoronoiError>(io::write_dual(&path, &io::MeshView::new(&mesh), &dual))
     })?;
     let written = written.map_err(|error| errors::plain(py, "dual", &error.to_string()))?;
     written.map_err(|error| errors::of_writing(py, &error))

@@ -110,6 +110,7 @@ def test_flopy(plate, tmp_path):
     disv = plate.to_flopy_disv()
     simulation = flopy.mf6.MFSimulation("plate", sim_ws=tmp_path)
     flopy.mf6.ModflowTdis(simulation)
+    flopy.mf6.ModflowIms(simulation)
     model = flopy.mf6.ModflowGwf(simulation, modelname="plate")
     flopy.mf6.ModflowGwfdisv(model, nlay=1, top=1.0, botm=0.0, **disv)
     simulation.write_simulation(silent=True)

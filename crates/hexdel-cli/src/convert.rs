@@ -1,5 +1,6 @@
 //! `hexdel convert`: a mesh or points from one format to another.
 
+use crate::crs::{self, epsg};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::input::{is_stream, names, no_table, refuse_columns, warn_of};
 use crate::mesh::{failure, warn_of_repairs, warn_of_warnings};
@@ -7,7 +8,7 @@ use crate::outputs::Outputs;
 use hexdel::Mesher;
 use hexdel::geom::Pslg;
 use hexdel_io::{
-    Columns, MeshData, MeshFormat, PointFormat, PointReader, ReadError, WriteError, holds_mesh,
+    Columns, MeshData, MeshFormat, MeshView, PointFormat, PointReader, ReadError, WriteError, holds_mesh,
     read_mesh_data, read_mesh_from, write_mesh, write_mesh_to, write_points, write_points_to,
 };
 use std::fs::File;
@@ -42,6 +43,9 @@ pub(crate) struct Args {
     /// Columns of x and y, perhaps of heights, in a table, by name or number
     #[arg(long, value_name = "X,Y")]
     columns: Option<Columns>,
+    /// Coordinate system that a mesh in .geojson or .nc names
+    #[arg(long, value_name = "EPSG:N", value_parser = epsg)]
+    crs: Option<u16>,
 }
 
 /// What is converted.
@@ -53,6 +57,7 @@ enum Content {
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Outcome {
     let [input, output] = args.formats()?;
+    crs::refuse_unused(args.crs, [MeshFormat::from_name(&output)], [])?;
     let mut outputs = Outputs::default();
     if !is_stream(&args.input) {
         outputs.protect_input(&args.input);
@@ -69,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
     let content = seeded(content, &output, &args.input)?;
     report_losses(&content, &output, &args.output);
     if is_stream(&args.output) {
-        return to_stdout(&content, &output);
+        return to_stdout(&content, &output, args.crs);
     }
     // By its own extension the format may write a pair of files.
     let by_extension = match content {
@@ -82,12 +87,12 @@ pub(crate) fn run(args: &Args) -> Outcome {
         _ => outputs.add_text(&args.output)?,
     }
     outputs.write(|_, path| match &content {
-        Content::Mesh(mesh) if by_extension => Ok(write_mesh(path, &mesh.view())?),
+        Content::Mesh(mesh) if by_extension => Ok(write_mesh(path, &view(mesh, args.crs))?),
         Content::Points(points) if by_extension => Ok(write_points(path, points)?),
         content => {
             let file = File::create(path);
             let mut file = file.map_err(|source| Failure::Output { file: path.to_owned(), source })?;
-            write_to(&mut file, content, &output, &args.output.display().to_string())
+            write_to(&mut file, content, &output, args.crs, &args.output.display().to_string())
         }
     })?;
     Ok(Verdict::Holds)
@@ -242,11 +247,24 @@ fn report_losses(content: &Content, format: &str, output: &Path) {
     }
 }
 
-fn write_to(out: &mut dyn Write, content: &Content, format: &str, name: &str) -> Result<(), Failure> {
+/// A mesh to be written, with its coordinate system.
+fn view(mesh: &MeshData, crs: Option<u16>) -> MeshView<'_> {
+    let mut view = mesh.view();
+    view.epsg = crs;
+    view
+}
+
+fn write_to(
+    out: &mut dyn Write,
+    content: &Content,
+    format: &str,
+    crs: Option<u16>,
+    name: &str,
+) -> Result<(), Failure> {
     match content {
         Content::Mesh(mesh) => {
             if let Some(format) = MeshFormat::from_name(format) {
-                write_mesh_to(out, format, &mesh.view(), name)?;
+                write_mesh_to(out, format, &view(mesh, crs), name)?;
             }
         }
         Content::Points(points) => {
@@ -259,9 +277,9 @@ fn write_to(out: &mut dyn Write, content: &Content, format: &str, name: &str) ->
 }
 
 /// A reader that has seen enough and closed the pipe is no failure.
-fn to_stdout(content: &Content, format: &str) -> Outcome {
+fn to_stdout(content: &Content, format: &str, crs: Option<u16>) -> Outcome {
     let mut out = io::stdout().lock();
-    match write_to(&mut out, content, format, "standard output") {
+    match write_to(&mut out, content, format, crs, "standard output") {
         Err(Failure::Write(WriteError::Io { source, .. })) if source.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::Stdout(source))
         }

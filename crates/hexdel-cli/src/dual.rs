@@ -1,9 +1,11 @@
 //! `hexdel dual`: the Voronoi dual of a mesh, whoever made it.
 
+use crate::crs::{self, epsg};
 use crate::exit::{Failure, Outcome, Verdict, print};
 use crate::input::{Formats, is_stream, names, read_mesh_data};
 use crate::outputs::Outputs;
 use hexdel::geom::{Voronoi, VoronoiSummary};
+use hexdel_io::{DualFormat, MeshView, write_dual};
 use std::path::PathBuf;
 
 /// Voronoi cells of a mesh, for finite volumes and exterior calculus
@@ -31,6 +33,9 @@ pub(crate) struct Args {
     /// Format of MESH if it is -
     #[arg(long, value_name = "NAME", value_parser = names(), hide_possible_values = true)]
     format: Option<String>,
+    /// Coordinate system that .geojson and .nc name
+    #[arg(long, value_name = "EPSG:N", value_parser = epsg)]
+    crs: Option<u16>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -45,11 +50,14 @@ pub(crate) fn run(args: &Args) -> Outcome {
     for path in &args.output {
         outputs.add_dual(path)?;
     }
+    crs::refuse_unused(args.crs, [], args.output.iter().map(|path| DualFormat::from_path(path)))?;
     let formats = Formats::named(args.format.as_ref());
     let mesh = formats.beside(&args.mesh, None).and_then(|_| read_mesh_data(&args.mesh, &formats))?.mesh;
     let file = args.mesh.display().to_string();
     let dual = Voronoi::new(&mesh).map_err(|source| Failure::Voronoi { file: file.clone(), source })?;
-    outputs.write(|_, path| Ok(hexdel_io::write_dual(path, &mesh, &dual)?))?;
+    let mut view = MeshView::new(&mesh);
+    view.epsg = args.crs;
+    outputs.write(|_, path| Ok(write_dual(path, &view, &dual)?))?;
     let summary = dual.summary();
     print(&if args.json {
         serde_json::to_string_pretty(&summary)? + "\n"

@@ -11,6 +11,7 @@
 
 mod check;
 mod convert;
+mod crs;
 mod dual;
 mod exit;
 mod generate;

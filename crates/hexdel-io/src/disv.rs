@@ -7,14 +7,15 @@
 
 use std::io::{self, Write};
 
-use hexdel_geom::{TriMesh, Voronoi};
+use hexdel_geom::Voronoi;
 
 use crate::dual::Cells;
 use crate::text::TextWriter;
+use crate::view::MeshView;
 
 /// Writes the package.
-pub(crate) fn write_disv(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
-    let cells = Cells::of(mesh, dual);
+pub(crate) fn write_disv(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
+    let cells = Cells::of(view.mesh, dual);
     let mut text = TextWriter::new(out);
     text.text(
         "# Voronoi cells of a triangle mesh. There is one layer, from 0 to 1: replace it by your own.\n",
@@ -31,7 +32,7 @@ pub(crate) fn write_disv(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>
     }
     text.text("END VERTICES\n\nBEGIN CELL2D\n");
     for (i, (vertex, ring)) in cells.iter().enumerate() {
-        let centre = mesh.vertices[vertex];
+        let centre = view.mesh.vertices[vertex];
         text.text("  ").integer(i + 1).text(" ").number(centre.x).text(" ").number(centre.y);
         text.text(" ").integer(ring.len());
         for corner in ring.iter().rev() {

@@ -17,13 +17,15 @@ use crate::atomic::Draft;
 use crate::error::WriteError;
 use crate::format::DualFormat;
 use crate::text::TextWriter;
+use crate::view::MeshView;
 use crate::vtu::{self, array};
 use crate::{disv, mpas, polygons_out, ugrid};
 
 /// VTK's number of the cell type polygon.
 const VTK_POLYGON: u8 = 7;
 
-/// Writes the dual of a mesh in the format that the extension stands for.
+/// Writes the dual of a mesh in the format that the extension stands for. Of the view, the mesh and its
+/// coordinate system are taken.
 ///
 /// A `.v.node` or `.v.edge` path stands for the pair of both.
 ///
@@ -34,13 +36,13 @@ const VTK_POLYGON: u8 = 7;
 /// # Errors
 ///
 /// [`WriteError::UnknownExtension`], [`WriteError::NotAFile`] and
-/// [`WriteError::Io`]; for NetCDF also [`WriteError::Empty`] and [`WriteError::TooMany`].
+/// [`WriteError::Io`]; for `NetCDF` also [`WriteError::Empty`] and [`WriteError::TooMany`].
 ///
 /// # Complexity
 ///
 /// Linear in the size of the mesh; about 200 bytes per vertex for formats with cells that share
-/// corners, and the file in memory for NetCDF.
-pub fn write_dual(path: impl AsRef<Path>, mesh: &TriMesh, dual: &Voronoi<'_>) -> Result<(), WriteError> {
+/// corners, and the file in memory for `NetCDF`.
+pub fn write_dual(path: impl AsRef<Path>, view: &MeshView<'_>, dual: &Voronoi<'_>) -> Result<(), WriteError> {
     let path = path.as_ref();
     let file = path.display().to_string();
     let Some(format) = DualFormat::from_path(path) else {
@@ -52,25 +54,25 @@ pub fn write_dual(path: impl AsRef<Path>, mesh: &TriMesh, dual: &Voronoi<'_>) ->
         DualFormat::Wkt => polygons_out::write_dual_wkt,
         DualFormat::Disv => disv::write_disv,
         DualFormat::Ugrid | DualFormat::Mpas => {
-            ugrid::check(mesh, &file)?;
+            ugrid::check(view.mesh, &file)?;
             if format == DualFormat::Mpas { mpas::write_mpas } else { ugrid::write_dual_ugrid }
         }
         DualFormat::Voronoi => {
             let mut nodes = Draft::create(&path.with_extension("node"))?;
             let mut edges = Draft::create(&path.with_extension("edge"))?;
             nodes.write(|out| write_node(out, dual))?;
-            edges.write(|out| write_edge(out, mesh, dual))?;
+            edges.write(|out| write_edge(out, view, dual))?;
             nodes.publish()?;
             return edges.publish();
         }
     };
     let mut draft = Draft::create(path)?;
-    draft.write(|out| write(out, mesh, dual))?;
+    draft.write(|out| write(out, view, dual))?;
     draft.publish()
 }
 
 /// What writes a format that is a single file.
-type Writer = fn(&mut dyn Write, &TriMesh, &Voronoi<'_>) -> io::Result<()>;
+type Writer = fn(&mut dyn Write, &MeshView<'_>, &Voronoi<'_>) -> io::Result<()>;
 
 /// The cells of all vertices that have one.
 pub(crate) struct Cells {
@@ -116,8 +118,8 @@ impl Cells {
     }
 }
 
-fn write_vtu(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
-    let cells = Cells::of(mesh, dual);
+fn write_vtu(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
+    let cells = Cells::of(view.mesh, dual);
     let count = cells.vertices.len();
     let mut out = BufWriter::with_capacity(1 << 16, out);
     vtu::begin(&mut out, &cells.corners, count)?;
@@ -148,12 +150,12 @@ fn write_node(out: &mut dyn Write, dual: &Voronoi<'_>) -> io::Result<()> {
     text.finish()
 }
 
-fn write_edge(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
+fn write_edge(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     text.integer(dual.edges.len()).text(" 0\n");
     for (i, edge) in dual.edges.iter().enumerate() {
         text.integer(i);
-        let [from, to] = edge.ends.map(|v| mesh.vertices[v.index()]);
+        let [from, to] = edge.ends.map(|v| view.mesh.vertices[v.index()]);
         match edge.triangles.map(|t| t.map(hexdel_geom::TriangleId::index)) {
             [Some(left), Some(right)] => {
                 text.text(" ").integer(left).text(" ").integer(right);

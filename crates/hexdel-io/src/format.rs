@@ -257,6 +257,11 @@ impl MeshFormat {
         !is_written_only && !self.is_picture()
     }
 
+    /// Whether files of the format can name a coordinate system.
+    pub fn holds_crs(self) -> bool {
+        matches!(self, Self::GeoJson | Self::Ugrid)
+    }
+
     /// Whether it is a picture.
     pub fn is_picture(self) -> bool {
         match self {
@@ -289,6 +294,11 @@ pub enum DualFormat {
 }
 
 impl DualFormat {
+    /// Whether files of the format can name a coordinate system.
+    pub fn holds_crs(self) -> bool {
+        matches!(self, Self::GeoJson | Self::Ugrid)
+    }
+
     /// The extensions that duals are written to, for messages.
     pub const EXTENSIONS: &str = ".vtu, .v.node, .v.edge, .geojson, .wkt, .disv, .nc, .mpas.nc";
 

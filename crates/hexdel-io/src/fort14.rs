@@ -121,16 +121,16 @@ fn read_boundaries<R: BufRead>(
 ) -> Result<(), ReadError> {
     let count = match lines.next_row()? {
         Some(row) => row.fields().integer("the number of boundaries")?,
-        None => 0_i32,
+        None => 0_u32,
     };
-    if count < 1 {
+    if count == 0 {
         // The number of their nodes, 0, may be missing where the file ends.
         return lines.next_row().map(drop);
     }
     // That total is not used by anyone.
     lines.due_row("numbers of boundary nodes", 0, 1)?;
     for index in 1..=count {
-        let (found, expected) = (index as u64 - 1, count as u64);
+        let (found, expected) = (u64::from(index) - 1, u64::from(count));
         let mut fields = lines.due_row("boundaries", found, expected)?.fields();
         let length: u64 = fields.integer("the number of nodes of a boundary")?;
         let kind = if is_open { 0 } else { fields.integer::<i64>("the type of a boundary")? };
@@ -142,7 +142,9 @@ fn read_boundaries<R: BufRead>(
         if ISLANDS.contains(&kind) && nodes.first().map(|n| n.0) != nodes.last().map(|n| n.0) {
             nodes.extend(nodes.first().copied());
         }
-        mesh.string(&nodes, if is_open { -index } else { index });
+        // Each of them took a line, so that there are not so many.
+        let marker = index as i32;
+        mesh.string(&nodes, if is_open { -marker } else { marker });
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The input of MPAS's mesh converter, `.mpas.nc`: NetCDF of a mesh in the plane.
+//! The input of MPAS's mesh converter, `.mpas.nc`: `NetCDF` of a mesh in the plane.
 //!
 //! MPAS has the names the other way round: its cells are the Voronoi cells of vertices, its
 //! vertices are the circumcentres of triangles. `cellsOnVertex` counts from 1, `meshDensity` is 1
@@ -6,17 +6,19 @@
 
 use std::io::{self, Write};
 
-use hexdel_geom::{TriMesh, Voronoi};
+use hexdel_geom::Voronoi;
 
 use crate::netcdf::{self, Attribute, Values, Variable};
 use crate::topology::counter_clockwise;
+use crate::view::MeshView;
 
 const CELL: &str = "nCells";
 const VERTEX: &str = "nVertices";
 const DEGREE: &str = "vertexDegree";
 
 /// Writes a mesh that has triangles.
-pub(crate) fn write_mpas(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
+pub(crate) fn write_mpas(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
+    let mesh = view.mesh;
     let dimensions = [(CELL, mesh.vertices.len()), (VERTEX, mesh.triangles.len()), (DEGREE, 3)];
     let attributes = [
         ("on_a_sphere", Attribute::Text("NO")),

@@ -41,7 +41,7 @@ impl NumberedMesh {
         if !height.is_finite() {
             return Err(fields.row.malformed("the third coordinate of a node", third));
         }
-        self.room("nodes", self.vertices.len(), fields)?;
+        Self::room("nodes", self.vertices.len(), fields)?;
         if !self.tags.add(number) {
             return Err(fields.row.malformed("a node number that is not in use", field));
         }
@@ -54,12 +54,12 @@ impl NumberedMesh {
     pub(crate) fn triangle(&mut self, fields: &mut Fields<'_>) -> Result<(), ReadError> {
         let mut corner = || fields.integer("the number of a node");
         let corners = [corner()?, corner()?, corner()?];
-        self.room("elements", self.triangles.len(), fields)?;
+        Self::room("elements", self.triangles.len(), fields)?;
         self.triangles.push((corners, fields.row.line));
         Ok(())
     }
 
-    fn room(&self, section: &'static str, count: usize, fields: &Fields<'_>) -> Result<(), ReadError> {
+    fn room(section: &'static str, count: usize, fields: &Fields<'_>) -> Result<(), ReadError> {
         if count < MAX_ITEMS {
             return Ok(());
         }

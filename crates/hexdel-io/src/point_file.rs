@@ -232,7 +232,7 @@ fn elsewhere(name: &str) -> ReadError {
 }
 
 /// Reads points, and segments, holes and regions if the format has them. What a
-/// [`PointReader`] warns of is an error here.
+/// [`PointReader`] warns of is an error here; but heights that only some points have are left.
 ///
 /// # Errors
 ///

@@ -3,7 +3,9 @@
 //!
 //! Rings are closed and counter-clockwise. In `GeoJSON` each polygon is a feature whose `id` is
 //! the index of the triangle or vertex; well-known text has a polygon per line and no
-//! properties. Heights, if the mesh has them, are third coordinates.
+//! properties. Heights, if the mesh has them, are third coordinates. A coordinate system is named as
+//! `GeoJSON` did before RFC 7946, which is what its readers know: the standard has longitudes and
+//! latitudes only.
 
 use std::io::{self, Write};
 
@@ -21,7 +23,7 @@ type Corner = (DVec2, Option<f64>);
 /// `min_angle` and `max_angle` in degrees.
 pub(crate) fn write_geojson(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
-    begin_features(&mut text);
+    begin_features(&mut text, view.epsg);
     text.rows(0..view.mesh.triangles.len(), |text, t| {
         let [a, b, c] = view.mesh.corners(TriangleId::new(t));
         let [min, max] = angle_range_deg([a, b, c]);
@@ -38,10 +40,14 @@ pub(crate) fn write_geojson(out: &mut dyn Write, view: &MeshView<'_>) -> io::Res
 }
 
 /// Writes the cells as features with the properties `vertex`, its index, and `area`.
-pub(crate) fn write_dual_geojson(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
+pub(crate) fn write_dual_geojson(
+    out: &mut dyn Write,
+    view: &MeshView<'_>,
+    dual: &Voronoi<'_>,
+) -> io::Result<()> {
     let mut text = TextWriter::new(out);
-    begin_features(&mut text);
-    text.rows(cells(mesh, dual), |text, (vertex, ring)| {
+    begin_features(&mut text, view.epsg);
+    text.rows(cells(view.mesh, dual), |text, (vertex, ring)| {
         text.text("{\"type\": \"Feature\", \"id\": ").integer(vertex);
         text.text(", \"properties\": {\"vertex\": ").integer(vertex).text(", ");
         property(text, "area", dual.areas[vertex]);
@@ -60,16 +66,21 @@ pub(crate) fn write_wkt(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
 }
 
 /// Writes the cells, each as a `POLYGON` on a line of its own.
-pub(crate) fn write_dual_wkt(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
+pub(crate) fn write_dual_wkt(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
-    for (_, ring) in cells(mesh, dual) {
+    for (_, ring) in cells(view.mesh, dual) {
         polygon(&mut text, &ring)?;
     }
     text.finish()
 }
 
-fn begin_features(text: &mut TextWriter<'_>) {
-    text.text("{\"type\": \"FeatureCollection\", \"features\": [");
+fn begin_features(text: &mut TextWriter<'_>, epsg: Option<u16>) {
+    text.text("{\"type\": \"FeatureCollection\", ");
+    if let Some(number) = epsg {
+        text.text("\"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"urn:ogc:def:crs:EPSG::");
+        text.integer(number).text("\"}}, ");
+    }
+    text.text("\"features\": [");
 }
 
 /// The corners of a triangle, counter-clockwise.

@@ -1,11 +1,12 @@
-//! UGRID, `.nc`: unstructured grids in NetCDF by the conventions CF-1.8 and UGRID-1.0, of
+//! UGRID, `.nc`: unstructured grids in `NetCDF` by the conventions CF-1.8 and UGRID-1.0, of
 //! triangles or of Voronoi cells.
 //!
 //! The topology is the variable `mesh2d`; nodes, faces and edges are counted from 0. Beside
 //! them stand what is known: `mesh2d_node_z` (heights), `mesh2d_node_marker`,
 //! `mesh2d_node_input_index` (-1 for Steiner points), `mesh2d_edge_marker` and
 //! `mesh2d_face_region`; of cells `mesh2d_face_vertex` and `mesh2d_face_area`, with the vertex
-//! as the centre of the face.
+//! as the centre of the face. A coordinate system is the grid mapping `projected_coordinate_system`, which
+//! knows it by its number.
 
 use std::io::{self, Write};
 
@@ -23,10 +24,13 @@ const EDGE: &str = "mesh2d_nEdges";
 const CORNER: &str = "mesh2d_nMax_face_nodes";
 const TWO: &str = "Two";
 
+/// The variable that names the coordinate system, as `Delft3D` and QGIS know it.
+const SYSTEM: &str = "projected_coordinate_system";
+
 /// The corner of a face that has fewer than others.
 const NO_NODE: i32 = -1;
 
-/// Finds what NetCDF cannot hold.
+/// Finds what `NetCDF` cannot hold.
 pub(crate) fn check(mesh: &TriMesh, file: &str) -> Result<(), WriteError> {
     netcdf::check_count("vertices", mesh.vertices.len(), file)?;
     netcdf::check_count("triangles", mesh.triangles.len(), file)
@@ -62,7 +66,7 @@ pub(crate) fn write_ugrid(out: &mut dyn Write, view: &MeshView<'_>) -> io::Resul
     if let Some(regions) = view.regions {
         variables.push(data("mesh2d_face_region", "face", &[FACE], Values::numbers(regions.iter().copied())));
     }
-    netcdf::write(out, &dimensions, &CONVENTIONS, variables)
+    write(out, &dimensions, variables, view.epsg)
 }
 
 fn node_data<'a>(view: &MeshView<'a>) -> Vec<Variable<'a>> {
@@ -85,7 +89,12 @@ fn node_data<'a>(view: &MeshView<'a>) -> Vec<Variable<'a>> {
 }
 
 /// Writes the cells of a mesh that has triangles.
-pub(crate) fn write_dual_ugrid(out: &mut dyn Write, mesh: &TriMesh, dual: &Voronoi<'_>) -> io::Result<()> {
+pub(crate) fn write_dual_ugrid(
+    out: &mut dyn Write,
+    view: &MeshView<'_>,
+    dual: &Voronoi<'_>,
+) -> io::Result<()> {
+    let mesh = view.mesh;
     let cells = Cells::of(mesh, dual);
     let most = cells.iter().map(|(_, ring)| ring.len()).max().unwrap_or(0);
     let dimensions = [(NODE, cells.corners.len()), (FACE, cells.vertices.len()), (CORNER, most)];
@@ -106,7 +115,38 @@ pub(crate) fn write_dual_ugrid(out: &mut dyn Write, mesh: &TriMesh, dual: &Voron
     let vertices = cells.iter().map(|(vertex, _)| vertex as i32);
     variables.push(data("mesh2d_face_vertex", "face", &[FACE], Values::integers(vertices)));
     variables.push(data("mesh2d_face_area", "face", &[FACE], Values::numbers(areas)));
-    netcdf::write(out, &dimensions, &CONVENTIONS, variables)
+    write(out, &dimensions, variables, view.epsg)
+}
+
+/// Writes a file, with its coordinate system if that is known.
+fn write(
+    out: &mut dyn Write,
+    dimensions: &[(&str, usize)],
+    variables: Vec<Variable<'_>>,
+    epsg: Option<u16>,
+) -> io::Result<()> {
+    let Some(number) = epsg else {
+        return netcdf::write(out, dimensions, &CONVENTIONS, variables);
+    };
+    let code = format!("EPSG:{number}");
+    let mut variables = variables;
+    for variable in &mut variables {
+        if variable.attributes.iter().any(|(name, _)| *name == "location") {
+            variable.attributes.push(("grid_mapping", Attribute::Text(SYSTEM)));
+        }
+    }
+    let attributes = vec![
+        ("name", Attribute::Text(&code)),
+        ("epsg", Attribute::Integer(number.into())),
+        ("EPSG_code", Attribute::Text(&code)),
+    ];
+    variables.push(Variable {
+        name: SYSTEM,
+        dimensions: &[],
+        attributes,
+        values: Values::integers([number.into()]),
+    });
+    netcdf::write(out, dimensions, &CONVENTIONS, variables)
 }
 
 const CONVENTIONS: [(&str, Attribute<'_>); 1] = [("Conventions", Attribute::Text("CF-1.8 UGRID-1.0"))];

@@ -70,6 +70,9 @@ pub struct MeshView<'a> {
     pub first_number: u32,
     /// Points in holes, and those of regions, of the graph that was meshed. Kept by `.poly`.
     pub seeds: (&'a [DVec2], &'a [Region]),
+    /// The number of the coordinate system in the register of EPSG. Kept by `.geojson` and `.nc`, of
+    /// meshes and of duals.
+    pub epsg: Option<u16>,
     /// How pictures look and what else is on them.
     pub picture: Picture<'a>,
 }
@@ -90,6 +93,7 @@ impl<'a> MeshView<'a> {
             vertex_attributes: None,
             first_number: 0,
             seeds: (&[], &[]),
+            epsg: None,
             picture: Picture::default(),
         }
     }
@@ -152,6 +156,12 @@ impl<'a> MeshView<'a> {
     #[must_use]
     pub fn with_promised(self, promised: &'a Promised) -> Self {
         Self { promised: Some(promised), ..self }
+    }
+
+    /// With the number of the coordinate system in the register of EPSG.
+    #[must_use]
+    pub fn with_epsg(self, epsg: u16) -> Self {
+        Self { epsg: Some(epsg), ..self }
     }
 
     /// With nodes on the midpoints of edges, or without.
@@ -293,6 +303,7 @@ impl fmt::Debug for MeshView<'_> {
             .field("marked_edges", &self.marked_edges.map(<[_]>::len))
             .field("certificate", &self.certificate.is_some())
             .field("promised", &self.promised)
+            .field("epsg", &self.epsg)
             .field("picture", &self.picture)
             .finish()
     }

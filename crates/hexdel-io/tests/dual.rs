@@ -5,7 +5,7 @@
 use std::fs;
 
 use hexdel_geom::{DVec2, TriMesh, VertexId, Voronoi};
-use hexdel_io::{WriteError, write_dual};
+use hexdel_io::{MeshView, WriteError, write_dual};
 
 /// A square halved.
 fn square() -> TriMesh {
@@ -19,7 +19,7 @@ fn square() -> TriMesh {
 fn circumcentres_edges_and_rays() {
     let folder = tempfile::tempdir().unwrap();
     let mesh = square();
-    write_dual(folder.path().join("m.v.edge"), &mesh, &Voronoi::new(&mesh).unwrap()).unwrap();
+    write_dual(folder.path().join("m.v.edge"), &MeshView::new(&mesh), &Voronoi::new(&mesh).unwrap()).unwrap();
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     assert_eq!(read("m.v.node"), "2 2 0 0\n0 0.5 0.5\n1 0.5 0.5\n");
     let edges = read("m.v.edge");
@@ -37,7 +37,7 @@ fn circumcentres_edges_and_rays() {
 fn cells_share_their_corners() {
     let folder = tempfile::tempdir().unwrap();
     let (mesh, path) = (square(), folder.path().join("m.vtu"));
-    write_dual(&path, &mesh, &Voronoi::new(&mesh).unwrap()).unwrap();
+    write_dual(&path, &MeshView::new(&mesh), &Voronoi::new(&mesh).unwrap()).unwrap();
     let text = fs::read_to_string(path).unwrap();
     // Four corners, four middles, one centre.
     assert!(text.contains("NumberOfPoints=\"9\" NumberOfCells=\"4\""), "{text}");
@@ -48,7 +48,17 @@ fn other_extensions_are_refused() {
     let mesh = square();
     let dual = Voronoi::new(&mesh).unwrap();
     for name in ["m.node", "m.v.ele", "m", ".v"] {
-        let error = write_dual(name, &mesh, &dual).unwrap_err();
+        let error = write_dual(name, &MeshView::new(&mesh), &dual).unwrap_err();
         assert!(matches!(error, WriteError::UnknownExtension { .. }), "{name}: {error}");
+    }
+}
+
+#[test]
+fn netcdf_has_no_duals_of_nothing() {
+    let mesh = TriMesh::default();
+    let dual = Voronoi::new(&mesh).unwrap();
+    for name in ["m.nc", "m.mpas.nc"] {
+        let error = write_dual(name, &MeshView::new(&mesh), &dual).unwrap_err();
+        assert!(matches!(error, WriteError::Empty { .. }), "{name}: {error}");
     }
 }

@@ -13,7 +13,9 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId, Voronoi};
-use hexdel_io::{MarkedEdge, MeshData, MeshFormat, Promised, PromisedDomain, write_dual, write_mesh};
+use hexdel_io::{
+    MarkedEdge, MeshData, MeshFormat, MeshView, Promised, PromisedDomain, write_dual, write_mesh,
+};
 
 #[path = "support/python.rs"]
 mod python;
@@ -61,7 +63,7 @@ fn write_all(folder: &Path, integers: bool) {
     for name in MeshFormat::names().filter(|name| !["msh4", "medit", "node"].contains(name)) {
         // Regions that are no integers are not for Medit and SMS.
         if integers || !["mesh", "2dm"].contains(&name) {
-            write_mesh(folder.join("mesh").with_extension(name), &data.view()).unwrap();
+            write_mesh(folder.join("mesh").with_extension(name), &data.view().with_epsg(25_832)).unwrap();
         }
     }
     // The dual of the same triangles with better angles.
@@ -72,7 +74,7 @@ fn write_all(folder: &Path, integers: bool) {
     }
     let dual = Voronoi::new(&mesh).unwrap();
     for name in ["vtu", "geojson", "wkt", "disv", "nc", "mpas.nc"] {
-        write_dual(folder.join(format!("dual.{name}")), &mesh, &dual).unwrap();
+        write_dual(folder.join(format!("dual.{name}")), &MeshView::new(&mesh), &dual).unwrap();
     }
     write_mesh(folder.join("dual.json"), &MeshData::new(mesh).view()).unwrap();
     write_mesh(folder.join("expected.json"), &data.view()).unwrap();

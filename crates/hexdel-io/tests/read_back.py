@@ -353,6 +353,7 @@ def ugrid(path):
             ("node_z", heights), ("node_marker", markers), ("node_input_index", inputs), ("face_region", regions),
         ]:
             variable = file[f"mesh2d_{name}"]
+            assert file[variable.grid_mapping].epsg == 25832, path
             assert variable.mesh == "mesh2d" and variable.location == name.split("_")[0], path
             same(variable[:], values, path)
 
@@ -374,6 +375,7 @@ def raised():
 
 def geojson(path):
     found = features(path)
+    assert json.loads(path.read_text())["crs"]["properties"] == {"name": "urn:ogc:def:crs:EPSG::25832"}, path
     polygons([shapely.geometry.shape(feature["geometry"]) for feature in found], raised(), path)
     assert [feature["id"] for feature in found] == list(range(len(triangles))), path
     same([feature["properties"]["region"] for feature in found], regions, path)

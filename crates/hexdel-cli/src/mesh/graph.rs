@@ -39,6 +39,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome 
         with_regions: !made.graph.regions.is_empty(),
         with_markers: true,
         second_order: false,
+        epsg: args.crs,
         picture: args.picture.picture(made.certificate.bounds),
     };
     finished.write(outputs)
@@ -58,6 +59,8 @@ pub(crate) struct Finished<'a> {
     pub(crate) with_regions: bool,
     pub(crate) with_markers: bool,
     pub(crate) second_order: bool,
+    /// The number of the coordinate system.
+    pub(crate) epsg: Option<u16>,
     pub(crate) picture: Picture<'a>,
 }
 
@@ -94,6 +97,7 @@ impl Finished<'_> {
         if let Some(regions) = &regions {
             view = view.with_regions(regions);
         }
+        view.epsg = self.epsg;
         let heights = match self.numbered {
             // Attributes are written as they are.
             Some(_) => None,

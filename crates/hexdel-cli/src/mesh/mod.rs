@@ -3,6 +3,7 @@
 mod graph;
 mod points;
 
+use crate::crs::{self, epsg};
 use crate::exit::{Failure, Outcome, unused, warn};
 use crate::input::{Formats, Streams, is_stream, read_graph};
 use crate::outputs::{Content, Outputs};
@@ -11,7 +12,7 @@ use crate::sizing::size_of_file;
 use clap::ValueEnum;
 use hexdel::geom::{BoundsError, Voronoi};
 use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg, SegmentMethod, Size, TriMesh};
-use hexdel_io::{MeshFormat, MeshView, PointFile, write_dual, write_mesh, write_mesh_to};
+use hexdel_io::{DualFormat, MeshFormat, MeshView, PointFile, write_dual, write_mesh, write_mesh_to};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -84,7 +85,7 @@ pub(crate) struct Args {
     #[arg(long, value_enum, value_name = "WAY", hide = true)]
     pslg: Option<PslgName>,
     /// Circumradius of the hexagon around points [default: the smallest]
-    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, hide = true, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     domain_radius: Option<f64>,
     /// Do not merge hexagons again where all rules allow it
     #[arg(long, hide = true)]
@@ -94,6 +95,9 @@ pub(crate) struct Args {
     threads: Option<u16>,
     #[command(flatten)]
     formats: Formats,
+    /// Coordinate system that .geojson and .nc name; nothing is projected
+    #[arg(long, value_name = "EPSG:N", value_parser = epsg)]
+    crs: Option<u16>,
     /// Write statistics of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -227,11 +231,12 @@ impl Args {
         let to_stream = self.output.iter().any(|path| is_stream(path));
         let streams = Streams { input: is_stream(&self.input), output: to_stream, points: true };
         self.formats.refuse_unused(&streams)?;
-        let is_picture = |path: &PathBuf| {
-            let by_name =
-                if is_stream(path) { self.formats.of_output().ok() } else { MeshFormat::from_path(path) };
-            by_name.is_some_and(MeshFormat::is_picture)
+        let format = |path: &PathBuf| {
+            if is_stream(path) { self.formats.of_output().ok() } else { MeshFormat::from_path(path) }
         };
+        let dual = self.dual.iter().map(|path| DualFormat::from_path(path));
+        crs::refuse_unused(self.crs, self.output.iter().map(format), dual)?;
+        let is_picture = |path: &PathBuf| format(path).is_some_and(MeshFormat::is_picture);
         let given = self.picture.given().or(self.grid.then_some("--grid"));
         match given.filter(|_| !self.output.iter().any(is_picture)) {
             // Lengths of edges have that name here.
@@ -378,7 +383,9 @@ fn write(
         Content::Mesh => Ok(write_mesh(path, view)?),
         Content::Dual => {
             let at_fault = |source| Failure::Voronoi { file: path.display().to_string(), source };
-            Ok(write_dual(path, mesh, &Voronoi::new(mesh).map_err(at_fault)?)?)
+            let mut of_dual = MeshView::new(mesh);
+            of_dual.epsg = view.epsg;
+            Ok(write_dual(path, &of_dual, &Voronoi::new(mesh).map_err(at_fault)?)?)
         }
         _ => {
             std::fs::write(path, &report).map_err(|source| Failure::Output { file: path.to_owned(), source })

@@ -67,6 +67,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
         .with_promised(&promised)
         .with_certificate(&made.certificate)
         .with_picture(picture);
+    view.epsg = args.crs;
     let heights = heights(file, || made.vertex_attributes(input).map_err(|source| args.failure(source)))?;
     if let Some(heights) = &heights {
         view = view.with_heights(heights);

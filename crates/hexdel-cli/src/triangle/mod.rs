@@ -88,6 +88,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
         with_regions: switches.regions,
         with_markers: !switches.without_markers,
         second_order: switches.second_order,
+        epsg: None,
         picture: hexdel_io::Picture::default(),
     };
     finished.write(&outputs)

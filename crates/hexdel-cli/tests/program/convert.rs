@@ -147,6 +147,29 @@ fn grids_of_hydrodynamics_are_meshes_and_points() {
     assert!(bench.run("check b.2dm --min-angle 20").out.contains("1 triangles"));
 }
 
+#[test]
+fn coordinate_systems_are_named_where_they_can_be() {
+    let bench = Bench::new();
+    bench.file("a.obj", OBJ);
+    bench.file("p.csv", "lon,lat\n8,47\n9,47\n8.5,48\n");
+    let run = bench.run("mesh p.csv -o m.geojson --dual c.nc --crs epsg:4326 --report r.json");
+    run.fine();
+    let told = "degrees are treated as plane coordinates; project them first";
+    assert!(run.out.contains(&format!("\nwarning    {told}\n")), "{}", run.out);
+    assert_eq!(bench.json("r.json")["input_warnings"], serde_json::json!([told]));
+    bench.run("convert a.obj b.geojson --crs EPSG:25832").fine();
+    for (name, code) in [("m", 4326), ("b", 25_832)] {
+        let named = &bench.json(&format!("{name}.geojson"))["crs"]["properties"]["name"];
+        assert_eq!(*named, format!("urn:ogc:def:crs:EPSG::{code}"));
+    }
+    bench
+        .run("mesh b.geojson -o d.vtu --crs EPSG:1")
+        .refused("--crs has no effect: it is for .geojson and .nc");
+    bench.run("convert a.obj c.off --crs EPSG:1").refused("--crs has no effect");
+    bench.run("dual a.obj -o c.vtu --crs EPSG:1").refused("--crs has no effect");
+    bench.run("mesh p.csv -o n.geojson --crs WGS84").refused("must be a code like EPSG:25832");
+}
+
 /// Points keep their heights, others get theirs from between them.
 #[test]
 fn meshes_have_the_heights_of_points() {
