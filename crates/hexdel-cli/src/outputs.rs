@@ -289,6 +289,7 @@ fn renamed(failure: Failure, path: &Path) -> Failure {
         Failure::Output { source, .. } | Failure::Write(WriteError::Io { source, .. }) => {
             Failure::Output { file: path.to_owned(), source }
         }
+        Failure::Write(error) => Failure::Write(error.renamed(&path.display().to_string())),
         other => other,
     }
 }

@@ -1,10 +1,14 @@
 //! What can go wrong with a file, with the file, the line and the item named.
 
+mod write;
+
 use std::io;
 use std::path::Path;
 
-use hexdel_geom::{DVec2, PslgLayoutError};
+use hexdel_geom::PslgLayoutError;
 use thiserror::Error;
+
+pub use write::WriteError;
 
 /// Faults of a kind that are counted before reading is given up.
 pub(crate) const MOST_FAULTS: u64 = 1000;
@@ -407,185 +411,5 @@ fn at_record(file: &str, record: u64) -> String {
     match record {
         0 => file.to_owned(),
         _ => format!("{file}: record {record}"),
-    }
-}
-
-/// Why a file was not written.
-///
-/// A file of that name from before, if any, is untouched.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum WriteError {
-    /// The system refused.
-    #[error("{file}: {source}")]
-    Io {
-        /// The file.
-        file: String,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The file name does not tell a format that can be written here.
-    #[error("{file}: unknown extension, expected one of {known}")]
-    UnknownExtension {
-        /// The file.
-        file: String,
-        /// The extensions that can be written.
-        known: &'static str,
-    },
-    /// Something other than a plain file has the name, a directory or a device.
-    #[error("{file}: not a plain file, will not be replaced")]
-    NotAFile {
-        /// The path.
-        file: String,
-    },
-    /// The format takes two files, but one stream was given.
-    #[error("{file}: the format {format} takes two files")]
-    TwoFiles {
-        /// The name of the stream.
-        file: String,
-        /// The format.
-        format: &'static str,
-    },
-    /// The format is read only.
-    #[error("{file}: the format {format} is read, not written")]
-    ReadOnly {
-        /// The file.
-        file: String,
-        /// The format.
-        format: &'static str,
-    },
-    /// The format has no way to write a number.
-    #[error("{file}: {item} {index} is {found}, which {format} cannot hold")]
-    Unrepresentable {
-        /// The file.
-        file: String,
-        /// The format.
-        format: &'static str,
-        /// "attribute", "region" or "height".
-        item: &'static str,
-        /// Its position in the array.
-        index: usize,
-        /// The number.
-        found: f64,
-    },
-    /// The format knows areas by holes and regions only.
-    #[error("{file}: the format holds no polygons, only holes and regions")]
-    Polygons {
-        /// The file.
-        file: String,
-    },
-    /// The format does not hold segments, holes or regions.
-    #[error("{file}: the format holds points only, not {item}")]
-    PointsOnly {
-        /// The file.
-        file: String,
-        /// What would be lost.
-        item: &'static str,
-    },
-    /// A coordinate is infinite or not a number.
-    #[error("{file}: {item} {index} at ({x}, {y}) is not finite")]
-    NonFinite {
-        /// The file.
-        file: String,
-        /// "point", "vertex", "hole", "region" or "polygon".
-        item: &'static str,
-        /// Its index.
-        index: usize,
-        /// Its coordinates.
-        x: f64,
-        /// Its coordinates.
-        y: f64,
-    },
-    /// A triangle or polygon refers to something that is not there.
-    #[error("{file}: {item} {index} refers to number {target} of {count}")]
-    IndexOutOfRange {
-        /// The file.
-        file: String,
-        /// "triangle", "edge", "segment" or "polygon".
-        item: &'static str,
-        /// Its index.
-        index: usize,
-        /// The vertex or class it names.
-        target: usize,
-        /// How many vertices or classes there are.
-        count: usize,
-    },
-    /// The arrays of the graph do not fit together.
-    #[error("{file}: {source}")]
-    Layout {
-        /// The file.
-        file: String,
-        /// Which do not.
-        source: PslgLayoutError,
-    },
-    /// The bounds of a picture must be bounds of angles.
-    #[error("{file}: bounds of angles must be 0 to 60 and 60 to 180 degrees, got {low} and {high}")]
-    Bounds {
-        /// The file.
-        file: String,
-        /// The smaller bound, degrees.
-        low: f64,
-        /// The larger bound, degrees.
-        high: f64,
-    },
-    /// The box that a picture is to show is empty, not finite, or beside the mesh.
-    #[error("{file}: the box from ({}, {}) to ({}, {}) {fault}", min.x, min.y, max.x, max.y)]
-    Zoom {
-        /// The file.
-        file: String,
-        /// The smaller coordinates.
-        min: DVec2,
-        /// The larger coordinates.
-        max: DVec2,
-        /// What is wrong with it.
-        fault: &'static str,
-    },
-    /// A picture is to be coloured by regions, of which the mesh has none.
-    #[error("{file}: the mesh has no regions to colour triangles by")]
-    NoRegions {
-        /// The file.
-        file: String,
-    },
-    /// The format has no meshes without triangles, or without vertices.
-    #[error("{file}: {format} cannot hold a mesh without {item}")]
-    Empty {
-        /// The file.
-        file: String,
-        /// The format.
-        format: &'static str,
-        /// "vertices" or "triangles".
-        item: &'static str,
-    },
-    /// There are more items than the format has numbers for.
-    #[error("{file}: {format} cannot hold {count} {item}, it ends at {limit}")]
-    TooMany {
-        /// The file.
-        file: String,
-        /// The format.
-        format: &'static str,
-        /// "vertices" or "triangles".
-        item: &'static str,
-        /// How many there are.
-        count: usize,
-        /// How many it can hold.
-        limit: usize,
-    },
-    /// An array has neither one entry per item nor none.
-    #[error("{file}: {found} {array} instead of {expected}")]
-    Length {
-        /// The file.
-        file: String,
-        /// What the array holds.
-        array: &'static str,
-        /// The length that would fit.
-        expected: usize,
-        /// The length it has.
-        found: usize,
-    },
-}
-
-impl WriteError {
-    pub(crate) fn io(file: &str) -> impl Fn(io::Error) -> Self {
-        move |source| Self::Io { file: file.to_owned(), source }
     }
 }

@@ -91,11 +91,11 @@ fn what_is_lost_is_said_and_what_cannot_be_is_refused() {
     );
     let run = bench.run("convert m.json m.off");
     assert_eq!((run.code, run.err.as_str()), (0, "warning: m.off: the format has no regions\n"));
-    bench.run("convert m.json m.mesh").refused("region of triangle 0 is 0.5");
+    bench.run("convert m.json m.mesh").refused("error: m.mesh: region of triangle 0 is 0.5");
     bench.run("convert m.json m.csv").refused("m.json: contains a mesh, which csv cannot store");
     bench.file("p.csv", "1,2\n3,4\n");
     bench.run("convert p.csv p.vtu").refused("p.csv: contains points, which vtu cannot store");
-    bench.run("convert p.csv p.wkt").refused("is read, not written");
+    bench.run("convert p.csv p.wkt").refused("error: p.wkt: the format wkt is read, not written");
     bench.run("convert p.csv p.xls").refused("unknown extension");
     bench.run("convert p.csv p.csv").refused("belongs to the input");
     bench.run("convert none.obj p.off").refused("none.obj: no such file");
