@@ -157,11 +157,11 @@ impl Table {
     /// Reads a point, and what else a row tells.
     fn point(&mut self, row: Row<'_>, index: u64) -> Result<Place, ReadError> {
         if let Some(counting) = &mut self.counting {
-            let next = split(row.text, self.delimiter).next().and_then(|field| field.parse().ok());
-            if next == counting.last.checked_add(1) {
-                counting.last += 1;
-            } else {
-                self.counting = None;
+            let next: Option<i64> =
+                split(row.text, self.delimiter).next().and_then(|field| field.parse().ok());
+            match next.filter(|_| next == counting.last.checked_add(1)) {
+                Some(next) => counting.last = next,
+                None => self.counting = None,
             }
         }
         if !self.taken.decimal_commas {
