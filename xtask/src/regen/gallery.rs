@@ -191,7 +191,7 @@ fn make(root: &Path, input: &Input, method: Method) -> Result<Vec<Shown>, Fault>
         let view = MeshView::new(&made.mesh).with_marked_edges(&edges);
         return [("all", None), ("a part", input.close_up)]
             .into_iter()
-            .map(|(label, zoom)| shown(input, label, view, &made.certificate, zoom))
+            .map(|(label, zoom)| shown(input, label, &view, &made.certificate, zoom))
             .collect();
     }
     let mut mesher = Mesher::new().method(method);
@@ -202,13 +202,13 @@ fn make(root: &Path, input: &Input, method: Method) -> Result<Vec<Shown>, Fault>
     let inputs = made.input_of_vertex();
     let view = MeshView::new(&made.mesh).with_input_indices(&inputs);
     let label = if method == Method::Compact { "compact" } else { "templates" };
-    Ok(vec![shown(input, label, view, &made.certificate, None)?])
+    Ok(vec![shown(input, label, &view, &made.certificate, None)?])
 }
 
 fn shown(
     input: &Input,
     label: &'static str,
-    view: MeshView<'_>,
+    view: &MeshView<'_>,
     certificate: &Certificate,
     zoom: Option<[DVec2; 2]>,
 ) -> Result<Shown, Fault> {
