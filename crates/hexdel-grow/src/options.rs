@@ -1,6 +1,6 @@
 //! What the caller says and gets.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use hexdel_optimize::edit::Kind;

@@ -1,7 +1,7 @@
 //! The order of the work: rounds of repair, of removals, of shakes, each over
 //! all parts of a new partition at once.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use hexdel_geom::monitor::check;
 use hexdel_geom::{Cancelled, Monitor, Phase, TriMesh};

@@ -3,7 +3,8 @@
 use hexdel_geom::{AngleBounds, Monitor, Phase};
 use hexdel_optimize::Effort;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// What part of the plane a mesh covers. Holes are left out of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

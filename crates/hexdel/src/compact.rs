@@ -10,7 +10,8 @@ use crate::start::{Begun, Start};
 use hexdel_geom::{AngleBounds, Monitor, Phase, VertexId};
 use hexdel_optimize::{Effort, OptimizeError, Optimized, Options, kinds_of, optimize, optimize_sized};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// The time that all there is to do may take; what must be done is done without it.
 #[derive(Clone, Copy, Debug)]

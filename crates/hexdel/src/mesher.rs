@@ -19,7 +19,8 @@ use hexdel_geom::{
 use hexdel_grid::Lattice;
 use hexdel_optimize::{Effort, SIZE_TOLERANCE};
 use hexdel_refine::Refiner;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 pub use crate::start::Start;
 

@@ -11,7 +11,8 @@ use hexdel_geom::{AngleBounds, DVec2, Monitor, PointSet, TriMesh, VertexId};
 use hexdel_grow::{GrowError, grow};
 use hexdel_optimize::Effort;
 use hexdel_refine::{Refiner, RuleSet, Start as Coarse};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// The largest lower bound, degrees, at which growth ends by itself; for larger ones the rest is for the optimiser.
 const GROWN_DEG: f64 = 43.0;

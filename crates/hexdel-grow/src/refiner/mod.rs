@@ -9,7 +9,7 @@ mod split;
 mod tips;
 mod walk;
 
-use std::time::Instant;
+use web_time::Instant;
 
 use hexdel_geom::monitor::check;
 use hexdel_geom::{DVec2, Monitor, Phase, orient2d, point_on_segment};

@@ -23,9 +23,9 @@ use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, SegmentMethod, Validated
 use prepare::Prepared;
 pub(crate) use repair::Names;
 use result::PslgTriangulation;
-use std::time::Instant;
 use verify::Meshed;
 use watch::Stopwatch;
+use web_time::Instant;
 
 /// The part of the plane that the mesh of a graph covers. Holes are left out of
 /// each.

@@ -3,7 +3,7 @@
 use crate::triangulation::Seconds;
 use hexdel_geom::{Monitor, Phase};
 use std::sync::Mutex;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Passes everything on to a monitor. The time since the call before is that of
 /// the phase that makes progress.
