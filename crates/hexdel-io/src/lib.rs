@@ -37,7 +37,8 @@
 //!
 //! Points go through [`read_points`], or a [`PointReader`] that says more, and [`write_points`], meshes through
 //! [`read_mesh_data`] and [`write_mesh`], streams through [`read_points_from`],
-//! [`write_points_to`], [`read_mesh_from`] and [`write_mesh_to`] with the format named.
+//! [`write_points_to`], [`read_mesh_from`] and [`write_mesh_to`] with the format named, or
+//! [`write_mesh_pair_to`].
 //!
 //! [`read_raster`] reads rasters (`.asc`), [`read_sizes`] tables of points with sizes.
 //!
@@ -134,4 +135,4 @@ pub use promised::{NotPromised, Promised, PromisedDomain};
 pub use read::{holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair};
 pub use sizes::{parse_sizes, read_sizes};
 pub use view::{MarkedEdge, MeshView};
-pub use write::{write_mesh, write_mesh_to, write_points, write_points_to};
+pub use write::{write_mesh, write_mesh_pair_to, write_mesh_to, write_points, write_points_to};

@@ -61,8 +61,8 @@ pub fn write_mesh(path: impl AsRef<Path>, view: &MeshView<'_>) -> Result<(), Wri
 ///
 /// # Errors
 ///
-/// [`WriteError::TwoFiles`] for [`MeshFormat::NodeEle`], otherwise as
-/// [`write_mesh`].
+/// [`WriteError::TwoFiles`] for [`MeshFormat::NodeEle`], which
+/// [`write_mesh_pair_to`] is for, otherwise as [`write_mesh`].
 pub fn write_mesh_to(
     out: &mut dyn Write,
     format: MeshFormat,
@@ -74,6 +74,37 @@ pub fn write_mesh_to(
     };
     check(format, view, name)?;
     write(out, view).map_err(WriteError::io(name))
+}
+
+/// Writes a mesh as Triangle's pair of `.node` and `.ele` to two streams, `name` being
+/// what errors call it.
+///
+/// # Errors
+///
+/// As [`write_mesh`].
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::{DVec2, TriMesh, VertexId};
+/// use hexdel_io::{MeshView, write_mesh_pair_to};
+///
+/// let vertices = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+/// let mesh = TriMesh { vertices, triangles: vec![[0, 1, 2].map(VertexId::new)] };
+/// let (mut nodes, mut elements) = (Vec::new(), Vec::new());
+/// write_mesh_pair_to(&mut nodes, &mut elements, &MeshView::new(&mesh), "stream")?;
+/// assert!(nodes.starts_with(b"3 2 ") && elements.starts_with(b"1 3 "));
+/// # Ok::<(), hexdel_io::WriteError>(())
+/// ```
+pub fn write_mesh_pair_to(
+    nodes: &mut dyn Write,
+    elements: &mut dyn Write,
+    view: &MeshView<'_>,
+    name: &str,
+) -> Result<(), WriteError> {
+    check(MeshFormat::NodeEle, view, name)?;
+    triangle_out::write_node(nodes, view).map_err(WriteError::io(name))?;
+    triangle_out::write_ele(elements, view).map_err(WriteError::io(name))
 }
 
 /// Writes points, and segments, holes and regions if the format has them.

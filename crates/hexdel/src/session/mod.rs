@@ -20,6 +20,7 @@ mod templates;
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
 use crate::size::{Size, SizeError};
+use crate::triangulation::Triangulation;
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
 use hexdel_optimize::live::{LiveError, LiveMesh, Step};
 use hexdel_optimize::{Sizing, kinds_of};
@@ -155,8 +156,32 @@ impl Session {
     /// [`SessionError::Mesh`], [`SessionError::Duplicate`] by the number of the
     /// earlier point, [`SessionError::NotForSessions`] for the simple method.
     pub fn new(points: &[DVec2], mesher: &Mesher) -> Result<Self, SessionError> {
+        let made = compact(mesher)?.triangulate(points)?;
+        Self::of(points, made, mesher)
+    }
+
+    /// A mesh that a mesher has made of points, as a session: that of [`new`](Self::new), if
+    /// the mesh has been made already.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Session};
+    /// let points = [DVec2::ZERO, DVec2::X, DVec2::new(0.2, 0.7)];
+    /// let mesher = Mesher::new();
+    /// let made = mesher.triangulate(&points)?;
+    /// let mut session = Session::of(&points, made, &mesher)?;
+    /// session.insert(DVec2::new(0.4, 0.4))?;
+    /// # Ok::<(), hexdel::SessionError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new) but for [`SessionError::Mesh`].
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not of these points.
+    pub fn of(points: &[DVec2], made: Triangulation, mesher: &Mesher) -> Result<Self, SessionError> {
         let mesher = compact(mesher)?;
-        let made = mesher.triangulate(points)?;
         let inputs = made.input_of_vertex();
         for (i, v) in made.vertex_of_input.iter().enumerate() {
             if let Some(first) = inputs[v.index()].filter(|&first| first as usize != i) {

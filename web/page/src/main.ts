@@ -1,0 +1,394 @@
+// The page: what is where, and what happens when.
+
+import type { Options } from "../../package/dist/index.js";
+import { Client, Refusal } from "./client.js";
+import { type Theme, themeOf } from "./colours.js";
+import * as d from "./document.js";
+import { Drawing } from "./drawing.js";
+import { EXAMPLES, download, stem } from "./files.js";
+import { LONGEST, fromFragment, toFragment } from "./link.js";
+import { element, listNotes, optionsOf, plural, sentence, showCounts, showFacts, showHistogram, showLegend, showOptions } from "./panel.js";
+import type { Facts, Fault, MeshAnswer } from "./protocol.js";
+
+/** More points than so many are not meshed anew while one of them is dragged. */
+const MOST_LIVE = 400;
+const MOST_LIVE_STEPS = 5000;
+
+/** Progress is shown of work that takes longer, milliseconds. */
+const PATIENCE = 250;
+
+const client = new Client(new URL("worker.js", import.meta.url), new URL("hexdel.wasm", import.meta.url));
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+let history = new d.History(d.EMPTY);
+let name = "mesh";
+let options: Options = {};
+let facts: Facts | undefined;
+/** What is to be meshed next, and whether something is being meshed. */
+let wanted: { live: boolean; anew: boolean } | undefined;
+let working: { live: boolean } | undefined;
+let clock: ReturnType<typeof setTimeout> | undefined;
+
+const drawing = new Drawing(element<HTMLCanvasElement>("canvas"), {
+  doc: () => history.current,
+  edit(doc, live, continues) {
+    history.push(doc, continues);
+    changed(live);
+  },
+  undo,
+  redo,
+  escape: () => client.busy && cancel(),
+  toolChanged(tool) {
+    for (const button of document.querySelectorAll<HTMLButtonElement>("[data-tool]")) {
+      button.setAttribute("aria-pressed", String(button.dataset["tool"] === tool));
+    }
+  },
+  say: (text) => (element("status").textContent = text),
+});
+
+/** For tests: what the page knows. */
+declare global {
+  var hexdelPage: {
+    idle(): boolean;
+    document(): d.Document;
+    facts(): Facts | undefined;
+    drawing: Drawing;
+    updates: number;
+    file(format: string): Promise<Uint8Array>;
+  };
+}
+globalThis.hexdelPage = {
+  idle: () => working === undefined && wanted === undefined && !client.busy,
+  document: () => history.current,
+  facts: () => facts,
+  drawing,
+  updates: 0,
+  file: (format) => client.ask({ kind: "write", format }),
+};
+
+/** Follows a change of the input. */
+function changed(live = false): void {
+  showCounts(history.current);
+  element("hint").hidden = history.current.points.length > 0;
+  element<HTMLButtonElement>("undo").disabled = !history.canUndo;
+  element<HTMLButtonElement>("redo").disabled = !history.canRedo;
+  want(live);
+  drawing.refresh();
+}
+
+/** Asks for a mesh. Work for an older input that nobody waits for is ended. */
+function want(live: boolean, anew = false): void {
+  const points = history.current.points.length / 2;
+  const stepwise = history.current.segments.length === 0 && drawing.hasSession;
+  if (live && points > (stepwise ? MOST_LIVE_STEPS : MOST_LIVE)) {
+    return;
+  }
+  wanted = { live, anew };
+  if (working && !working.live && !element("progress").hidden) {
+    client.cancel();
+    drawing.hasSession = false;
+  }
+  void work();
+}
+
+/** Meshes until nothing is wanted any more. */
+async function work(): Promise<void> {
+  if (working || !wanted) {
+    return;
+  }
+  const { live, anew } = wanted;
+  const doc = history.current;
+  wanted = undefined;
+  if (doc.points.length === 0) {
+    showMesh(undefined);
+    return;
+  }
+  working = { live };
+  clock = setTimeout(() => (element("progress").hidden = false), PATIENCE);
+  try {
+    const answer = await client.ask({ kind: "mesh", doc, options, live, anew });
+    globalThis.hexdelPage.updates += 1;
+    showFault(undefined);
+    showMesh(answer);
+    if (!live) {
+      await showOverlays();
+    }
+  } catch (error) {
+    refused(error);
+  } finally {
+    clearTimeout(clock);
+    element("progress").hidden = true;
+    working = undefined;
+  }
+  void work();
+}
+
+function refused(error: unknown): void {
+  if (!(error instanceof Refusal)) {
+    throw error;
+  }
+  if (error.fault.kind === "cancelled") {
+    if (!wanted) {
+      element("status").textContent = "Cancelled.";
+    }
+    return;
+  }
+  showFault(error.fault);
+}
+
+function cancel(): void {
+  wanted = undefined;
+  drawing.hasSession = false;
+  client.cancel();
+}
+
+client.onprogress = (phase, part) => {
+  element<HTMLProgressElement>("bar").value = part;
+  element("phase").textContent = `Meshing: ${phase}`;
+};
+
+function showMesh(answer: MeshAnswer | undefined): void {
+  const next = answer?.facts;
+  if (!answer) {
+    facts = undefined;
+    drawing.setMesh(undefined);
+    element("status").textContent = "Nothing to mesh yet.";
+  } else {
+    const least = next?.bounds[0] ?? facts?.bounds[0] ?? 43.9;
+    const { vertices, triangles, angles, edges } = answer;
+    drawing.setMesh({ vertices, triangles, angles, edges, least: Math.min(least, 59) });
+    // While a point is dragged, the figures of the last whole mesh stay.
+    facts = next ?? facts;
+    drawing.hasSession = answer.hasSession;
+  }
+  if (answer && !next) {
+    return;
+  }
+  showFacts(facts);
+  showHistogram(facts);
+  showLegend(Math.min(facts?.bounds[0] ?? 43.9, 59), dark.matches);
+  element("anew").hidden = !answer?.stepwise;
+  if (answer && next) {
+    element("status").textContent = sentence(answer, next);
+    const notes = [...next.notes.failed, ...next.notes.exempt].slice(0, 200);
+    drawing.setNotes(notes.map(({ x, y }) => ({ at: [x, y], kind: "note", label: "" })));
+  }
+}
+
+async function showOverlays(): Promise<void> {
+  const [voronoi, hexagons] = ["voronoi", "hexagons"].map((id) => element<HTMLInputElement>(id).checked);
+  drawing.dual = voronoi && facts ? await client.ask({ kind: "dual" }) : undefined;
+  drawing.hexagons = hexagons && facts ? await client.ask({ kind: "hexagons" }) : undefined;
+  element("hexagons-note").hidden = !hexagons || drawing.hexagons !== undefined;
+  drawing.refresh();
+}
+
+/** Shows an error where it is, in the library's words. */
+function showFault(fault: Fault | undefined): void {
+  element("fault").hidden = fault === undefined;
+  drawing.setFault(fault && { at: placeOf(fault), kind: "fault", label: labelOf(fault) });
+  if (fault) {
+    element("fault-text").textContent = fault.message;
+    const mendable = ["too_close", "crossing", "overlap", "zero_length", "duplicate"].includes(fault.kind);
+    element("fault-repair").hidden = !mendable || history.current.segments.length === 0 || options.repair === true;
+    element("status").textContent = "Not meshed; the last mesh is shown.";
+  }
+}
+
+function labelOf(fault: Fault): string {
+  return fault.item && fault.index.length > 0 ? `${fault.item} ${fault.index.join(", ")}` : "";
+}
+
+function placeOf(fault: Fault): d.Place | undefined {
+  const { points, segments, holes } = history.current;
+  const [index] = fault.index;
+  if (fault.location || index === undefined) {
+    return fault.location;
+  }
+  switch (fault.item) {
+    case "point":
+      return d.place(points, index);
+    case "segment":
+      return d.place(points, segments[2 * index] ?? 0);
+    case "hole":
+      return d.place(holes, index);
+    default:
+      return undefined;
+  }
+}
+
+function undo(): void {
+  history.undo();
+  drawing.endChain();
+  changed();
+}
+
+function redo(): void {
+  history.redo();
+  changed();
+}
+
+/** Begins with another input. */
+function open(doc: d.Document, called: string, warnings: readonly string[] = []): void {
+  history.push(doc);
+  name = called;
+  listNotes(element("read-notes"), warnings);
+  drawing.endChain();
+  drawing.fit();
+  changed();
+}
+
+async function openFile(file: File): Promise<void> {
+  try {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const { doc, warnings } = await client.ask({ kind: "read", bytes, name: file.name });
+    showFault(undefined);
+    open(doc, stem(file.name), warnings);
+  } catch (error) {
+    refused(error);
+  }
+}
+
+async function openExample(index: number): Promise<void> {
+  const example = EXAMPLES[index];
+  if (!example) {
+    return;
+  }
+  if ("kind" in example) {
+    open(await client.ask({ kind: "generate", of: example.kind, count: example.count }), example.kind);
+    return;
+  }
+  const response = await fetch(new URL(`examples/${example.file}`, import.meta.url));
+  await openFile(new File([await response.arrayBuffer()], example.file));
+}
+
+async function save(): Promise<void> {
+  const format = element<HTMLSelectElement>("format").value;
+  try {
+    if (format === "png") {
+      download(`${name}.png`, await drawing.picture());
+      return;
+    }
+    for (const part of format.split("+")) {
+      download(`${name}.${part}`, (await client.ask({ kind: "write", format: part })) as BlobPart);
+    }
+  } catch (error) {
+    refused(error);
+  }
+}
+
+/** The input as text in Triangle's formats. Numbers read back to the same bits. */
+function saveInput(): void {
+  const { points, segments, holes, regions } = history.current;
+  const n = d.count(history.current);
+  const rows = (flat: ArrayLike<number>) =>
+    Array.from({ length: flat.length / 2 }, (_, i) => `${i} ${flat[2 * i]} ${flat[2 * i + 1]}\n`).join("");
+  let text = `${n.points} 2 0 0\n${rows(points)}`;
+  if (n.segments > 0) {
+    text += `${n.segments} 0\n${rows(segments)}${n.holes}\n${rows(holes)}`;
+    const region = (r: (typeof regions)[number], i: number) =>
+      `${i} ${r.point[0]} ${r.point[1]} ${r.attribute ?? 0} ${r.maxArea ?? -1}\n`;
+    text += regions.length > 0 ? `${regions.length}\n${regions.map(region).join("")}` : "";
+  }
+  download(`${name}.${n.segments > 0 ? "poly" : "node"}`, text, "text/plain");
+}
+
+async function copyLink(): Promise<void> {
+  const fragment = await toFragment(history.current, options);
+  if (fragment.length > LONGEST) {
+    element("status").textContent = `The input is too large for a link: ${plural(fragment.length, "character")}.`;
+    return;
+  }
+  window.history.replaceState(null, "", fragment);
+  try {
+    await navigator.clipboard.writeText(location.href);
+    element("status").textContent = "The link is copied.";
+  } catch {
+    element("status").textContent = "The link is in the address bar.";
+  }
+}
+
+async function openLink(): Promise<boolean> {
+  try {
+    const held = await fromFragment(location.hash);
+    if (!held) {
+      return false;
+    }
+    options = held.options;
+    showOptions(options);
+    open(held.doc, "mesh");
+    return true;
+  } catch {
+    showFault({ kind: "link", message: "the link is damaged", item: undefined, index: [], location: undefined, least: undefined });
+    return false;
+  }
+}
+
+function connect(): void {
+  const on = (id: string, event: string, act: () => void) => element(id).addEventListener(event, act);
+  for (const button of document.querySelectorAll<HTMLButtonElement>("[data-tool]")) {
+    button.addEventListener("click", () => drawing.setTool(button.dataset["tool"] ?? "points"));
+  }
+  on("undo", "click", undo);
+  on("redo", "click", redo);
+  on("clear", "click", () => open(d.EMPTY, "mesh"));
+  on("zoom-in", "click", () => drawing.zoom(1.5));
+  on("zoom-out", "click", () => drawing.zoom(1 / 1.5));
+  on("fit", "click", () => drawing.fit());
+  on("cancel", "click", cancel);
+  on("anew", "click", () => want(false, true));
+  on("save", "click", () => void save());
+  on("save-input", "click", saveInput);
+  on("link", "click", () => void copyLink());
+  on("fault-repair", "click", () => {
+    element<HTMLInputElement>("repair").checked = true;
+    optionsChanged();
+  });
+  for (const id of ["min-angle", "max-angle", "size", "max-area", "effort", "method", "domain", "repair"]) {
+    on(id, "change", optionsChanged);
+  }
+  for (const id of ["voronoi", "hexagons"]) {
+    on(id, "change", () => void showOverlays().catch(refused));
+  }
+  const example = element<HTMLSelectElement>("example");
+  example.append(new Option("choose", ""), ...EXAMPLES.map((e, i) => new Option(e.name, String(i))));
+  on("example", "change", () => example.value !== "" && void openExample(Number(example.value)));
+  const file = element<HTMLInputElement>("file");
+  on("file", "change", () => file.files?.[0] && void openFile(file.files[0]));
+  const stage = element("stage");
+  stage.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    stage.classList.add("dropping");
+  });
+  stage.addEventListener("dragleave", () => stage.classList.remove("dropping"));
+  stage.addEventListener("drop", (event) => {
+    event.preventDefault();
+    stage.classList.remove("dropping");
+    const dropped = event.dataTransfer?.files[0];
+    if (dropped) {
+      void openFile(dropped);
+    }
+  });
+  dark.addEventListener("change", themed);
+  addEventListener("hashchange", () => void openLink());
+}
+
+function optionsChanged(): void {
+  const chosen = optionsOf();
+  if (chosen) {
+    options = chosen;
+    drawing.hasSession = false;
+    want(false);
+  }
+}
+
+function themed(): void {
+  const theme: Theme = themeOf(dark.matches);
+  drawing.setTheme(theme);
+  showLegend(Math.min(facts?.bounds[0] ?? 43.9, 59), dark.matches);
+}
+
+connect();
+themed();
+changed();
+void openLink().then((opened) => (opened ? undefined : openExample(0)));

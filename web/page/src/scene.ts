@@ -1,0 +1,291 @@
+// What is drawn: the mesh, overlays, the input, marks, the keyboard's cursor.
+
+import type { Dual, Hexagons } from "../../package/dist/index.js";
+import { type Theme, classesOf } from "./colours.js";
+import { type Document, type Place, place } from "./document.js";
+import { Raster } from "./raster.js";
+import type { View } from "./view.js";
+
+/** Edges shorter than so many pixels on average are not drawn. */
+const LEAST_EDGE = 3.5;
+
+/** More points than so many are drawn as dots without a ring. */
+const MANY_POINTS = 3000;
+
+export interface DrawnMesh {
+  readonly vertices: Float64Array;
+  readonly triangles: Uint32Array;
+  readonly angles: Float32Array;
+  readonly edges: Uint32Array;
+  /** The angle that the colours begin at. */
+  readonly least: number;
+}
+
+/** A mark at a place. */
+export interface Mark {
+  readonly at: Place;
+  readonly kind: "fault" | "note";
+  readonly label: string;
+}
+
+export interface Scene {
+  readonly doc: Document;
+  readonly mesh: DrawnMesh | undefined;
+  readonly dual: Dual | undefined;
+  readonly hexagons: Hexagons | undefined;
+  readonly marks: readonly Mark[];
+  /** Points to be told from others: at fault, or held. */
+  readonly held: number | undefined;
+  /** The end of the segment being drawn. */
+  readonly chain: Place | undefined;
+  readonly pointer: Place | undefined;
+  /** Where the keyboard points, in pixels. */
+  readonly cursor: Place | undefined;
+}
+
+export class Painter {
+  private readonly raster = new Raster();
+  private drawn: DrawnMesh | undefined;
+  private classes: Uint8Array = new Uint8Array();
+  private lines: Uint32Array = new Uint32Array();
+  private meanEdge = 0;
+
+  /** Draws all of it, at so many pixels of the canvas for each of CSS. */
+  draw(context: CanvasRenderingContext2D, ratio: number, view: View, theme: Theme, scene: Scene): void {
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, context.canvas.width, context.canvas.height);
+    if (scene.mesh) {
+      this.adopt(scene.mesh);
+      this.raster.draw(context, ratio, view, scene.mesh, this.classes, theme.triangles);
+    }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.lineJoin = "round";
+    context.lineCap = "round";
+    if (scene.mesh && this.meanEdge * view.scale >= LEAST_EDGE) {
+      stroke(context, view, scene.mesh.vertices, this.lines, theme.edge, 0.7);
+    }
+    if (scene.hexagons) {
+      outlines(context, view, scene.hexagons.offsets, scene.hexagons.corners, theme.hexagon, 1.1);
+    }
+    if (scene.dual) {
+      outlines(context, view, scene.dual.cellOffsets, scene.dual.cellCorners, theme.cell, 0.9);
+    }
+    drawInput(context, view, theme, scene);
+    scene.marks.forEach((mark) => drawMark(context, view, theme, mark));
+    if (scene.cursor) {
+      drawCursor(context, theme, scene.cursor);
+    }
+  }
+
+  /** Works out what a new mesh needs: classes and every edge once. */
+  private adopt(mesh: DrawnMesh): void {
+    if (this.drawn === mesh) {
+      return;
+    }
+    this.drawn = mesh;
+    this.classes = classesOf(mesh.angles, mesh.least);
+    this.lines = linesOf(mesh.triangles);
+    this.meanEdge = meanLength(mesh.vertices, this.lines);
+  }
+}
+
+/** Every edge once. Inner edges are run through in both directions, those of the boundary in one. */
+function linesOf(triangles: Uint32Array): Uint32Array {
+  const lines = new Uint32Array(triangles.length * 2);
+  const known = new EdgeSet(triangles.length);
+  let used = 0;
+  for (const upwards of [true, false]) {
+    for (let i = 0; i < triangles.length; i++) {
+      const a = triangles[i] as number;
+      const b = triangles[i % 3 === 2 ? i - 2 : i + 1] as number;
+      if (a < b === upwards && known.add(Math.min(a, b), Math.max(a, b))) {
+        lines[used++] = a;
+        lines[used++] = b;
+      }
+    }
+  }
+  return lines.slice(0, used);
+}
+
+/** A set of pairs of vertices: a table with open addressing. */
+class EdgeSet {
+  private readonly lows: Int32Array;
+  private readonly highs: Int32Array;
+  private readonly mask: number;
+
+  constructor(most: number) {
+    const size = 2 ** Math.ceil(Math.log2(Math.max(4, 2 * most)));
+    this.mask = size - 1;
+    this.lows = new Int32Array(size).fill(-1);
+    this.highs = new Int32Array(size);
+  }
+
+  /** Whether the pair is new. */
+  add(low: number, high: number): boolean {
+    let slot = (Math.imul(low, 0x9e3779b1) ^ Math.imul(high, 0x85ebca6b)) & this.mask;
+    while (this.lows[slot] !== -1) {
+      if (this.lows[slot] === low && this.highs[slot] === high) {
+        return false;
+      }
+      slot = (slot + 1) & this.mask;
+    }
+    this.lows[slot] = low;
+    this.highs[slot] = high;
+    return true;
+  }
+}
+
+function meanLength(vertices: Float64Array, lines: Uint32Array): number {
+  const step = 2 * Math.max(1, Math.floor(lines.length / 4000));
+  let [sum, n] = [0, 0];
+  for (let i = 0; i < lines.length; i += step) {
+    const [a, b] = [place(vertices, lines[i] as number), place(vertices, lines[i + 1] as number)];
+    sum += Math.hypot(a[0] - b[0], a[1] - b[1]);
+    n += 1;
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+/** Lines between vertices, those outside of the canvas left away. */
+function stroke(
+  context: CanvasRenderingContext2D,
+  view: View,
+  vertices: Float64Array,
+  lines: Uint32Array,
+  colour: string,
+  width: number,
+): void {
+  const [x0, y0] = view.toPlane([0, 0]);
+  const { scale, width: right, height: bottom } = view;
+  context.beginPath();
+  for (let i = 0; i < lines.length; i += 2) {
+    const [a, b] = [2 * (lines[i] as number), 2 * (lines[i + 1] as number)];
+    const ax = ((vertices[a] as number) - x0) * scale;
+    const ay = (y0 - (vertices[a + 1] as number)) * scale;
+    const bx = ((vertices[b] as number) - x0) * scale;
+    const by = (y0 - (vertices[b + 1] as number)) * scale;
+    const outside = (ax < 0 && bx < 0) || (ay < 0 && by < 0) || (ax > right && bx > right) || (ay > bottom && by > bottom);
+    if (!outside) {
+      context.moveTo(ax, ay);
+      context.lineTo(bx, by);
+    }
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.stroke();
+}
+
+function outlines(
+  context: CanvasRenderingContext2D,
+  view: View,
+  offsets: Uint32Array,
+  corners: Float64Array,
+  colour: string,
+  width: number,
+): void {
+  context.beginPath();
+  for (let c = 0; c + 1 < offsets.length; c++) {
+    const [from, to] = [offsets[c] as number, offsets[c + 1] as number];
+    let inside = false;
+    for (let i = from; i < to; i++) {
+      const [x, y] = view.toPixels(place(corners, i));
+      inside ||= x > -50 && y > -50 && x < view.width + 50 && y < view.height + 50;
+    }
+    if (!inside) {
+      continue;
+    }
+    for (let i = from; i < to; i++) {
+      const [x, y] = view.toPixels(place(corners, i));
+      if (i === from) context.moveTo(x, y);
+      else context.lineTo(x, y);
+    }
+    context.closePath();
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.stroke();
+}
+
+function drawInput(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene): void {
+  const { doc } = scene;
+  stroke(context, view, doc.points, doc.segments, theme.segment, 2);
+  if (scene.chain && scene.pointer) {
+    context.beginPath();
+    context.moveTo(...view.toPixels(scene.chain));
+    context.lineTo(...view.toPixels(scene.pointer));
+    context.setLineDash([5, 4]);
+    context.strokeStyle = theme.cursor;
+    context.lineWidth = 1.5;
+    context.stroke();
+    context.setLineDash([]);
+  }
+  drawPoints(context, view, theme, scene);
+  for (let h = 0; h < doc.holes.length / 2; h++) {
+    const [x, y] = view.toPixels(place(doc.holes, h));
+    context.beginPath();
+    context.moveTo(x - 5, y - 5);
+    context.lineTo(x + 5, y + 5);
+    context.moveTo(x - 5, y + 5);
+    context.lineTo(x + 5, y - 5);
+    context.strokeStyle = theme.hole;
+    context.lineWidth = 2.5;
+    context.stroke();
+  }
+}
+
+function drawPoints(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene): void {
+  const count = scene.doc.points.length / 2;
+  const radius = count > MANY_POINTS ? 1 : count > 300 ? 2 : 3.5;
+  context.beginPath();
+  for (let i = 0; i < count; i++) {
+    const [x, y] = view.toPixels(place(scene.doc.points, i));
+    if (x > -9 && y > -9 && x < view.width + 9 && y < view.height + 9) {
+      context.moveTo(x + radius, y);
+      context.arc(x, y, radius, 0, 2 * Math.PI);
+    }
+  }
+  context.fillStyle = theme.point;
+  context.fill();
+  if (count <= MANY_POINTS) {
+    context.strokeStyle = theme.ring;
+    context.lineWidth = 1;
+    context.stroke();
+  }
+  if (scene.held !== undefined && scene.held < count) {
+    const [x, y] = view.toPixels(place(scene.doc.points, scene.held));
+    ring(context, x, y, 8, theme.cursor);
+  }
+}
+
+function drawMark(context: CanvasRenderingContext2D, view: View, theme: Theme, mark: Mark): void {
+  const [x, y] = view.toPixels(mark.at);
+  const colour = mark.kind === "fault" ? theme.fault : theme.note;
+  ring(context, x, y, mark.kind === "fault" ? 12 : 7, colour);
+  if (mark.label !== "") {
+    context.font = "600 13px system-ui, sans-serif";
+    context.lineWidth = 4;
+    context.strokeStyle = theme.ring;
+    context.strokeText(mark.label, x + 16, y + 4);
+    context.fillStyle = colour;
+    context.fillText(mark.label, x + 16, y + 4);
+  }
+}
+
+function drawCursor(context: CanvasRenderingContext2D, theme: Theme, [x, y]: Place): void {
+  context.beginPath();
+  context.moveTo(x - 12, y);
+  context.lineTo(x + 12, y);
+  context.moveTo(x, y - 12);
+  context.lineTo(x, y + 12);
+  context.strokeStyle = theme.cursor;
+  context.lineWidth = 2;
+  context.stroke();
+}
+
+function ring(context: CanvasRenderingContext2D, x: number, y: number, radius: number, colour: string): void {
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.strokeStyle = colour;
+  context.lineWidth = 2.5;
+  context.stroke();
+}
