@@ -1,12 +1,14 @@
 //! `cargo xtask ci`: all that must pass before a change is taken, in the order
 //! of what fails fastest.
 //!
-//! The steps are run as a person would type them; this task installs nothing
+//! The steps are run as a person would type them; this task itself installs nothing
 //! and needs the Rust toolchain with rustfmt and clippy. Two tests put packages of Python
 //! below `target/`: one of `hexdel-io` meshio with numpy, which it must where there is a
-//! Python, and one of `hexdel-cli` triangle with numpy, if it can. The last step builds the
-//! Python package and installs it there, beside what it hands meshes on to; it must succeed
-//! where there is a Python of 3.10 or later.
+//! Python, and one of `hexdel-cli` triangle with numpy, if it can. The last step but one builds
+//! the Python package and installs it there, beside what it hands meshes on to; it must succeed
+//! where there is a Python of 3.10 or later. The last one builds the npm package and the page
+//! and tests them in Node and Chromium; it is skipped where npm or the compiler's target cannot
+//! be had.
 
 use crate::Outcome;
 use crate::tidy;
@@ -26,6 +28,7 @@ const STEPS: &[&str] = &[
     "test --workspace",
     "xtask regen --check",
     "xtask python",
+    "xtask web --test",
 ];
 
 /// Runs all steps, up to the first that fails.

@@ -7,6 +7,7 @@ mod prove;
 mod python;
 mod regen;
 mod tidy;
+mod web;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -39,6 +40,13 @@ enum Task {
     Python,
     /// Build the wheel of the Python package and its source distribution into target/wheels
     Wheel,
+    /// Build the npm package and the page: web/package and web/dist. What is missing of the
+    /// toolchain is fetched if it can be
+    Web {
+        /// Test them, too, in Node and in Chromium; nothing where the tools cannot be had
+        #[arg(long)]
+        test: bool,
+    },
     /// Prove by enumeration that every triangle keeps 43.89 to 90 degrees, and
     /// write docs/proof.md
     Prove {
@@ -63,6 +71,8 @@ fn main() -> ExitCode {
         Task::Regen { check } => regen::run(check),
         Task::Python => python::test(),
         Task::Wheel => python::wheel(),
+        Task::Web { test: false } => web::build(),
+        Task::Web { test: true } => web::test(),
         Task::Prove { without, reduced } => prove::run(&without, reduced),
     };
     match outcome {

@@ -162,7 +162,7 @@ export class Mesh {
     return guarded(() => this.raw.dual() as Dual);
   }
 
-  /** The hexagons behind the mesh, if it has any: those of `templates` and `simple` do. */
+  /** The hexagons that the mesh began with, if it did: those of `templates` and `simple` do. */
   hexagons(): Hexagons | undefined {
     return this.raw.hexagons() as Hexagons | undefined;
   }

@@ -70,6 +70,11 @@ export function sentence(mesh: MeshAnswer, facts: Facts): string {
   );
 }
 
+/** A bound without zeros at its end. */
+function shortly(angle: number): string {
+  return String(Number(angle.toFixed(3)));
+}
+
 export function showFacts(facts: Facts | undefined): void {
   const verdict = element("verdict");
   const list = element("certificate");
@@ -86,8 +91,8 @@ export function showFacts(facts: Facts | undefined): void {
   const rows: [string, string][] = [
     ["Triangles", facts.triangles.toLocaleString("en")],
     ["Vertices", facts.vertices.toLocaleString("en")],
-    ["Angles", `${facts.angles[0].toFixed(4)}° to ${facts.angles[1].toFixed(4)}°`],
-    ["Bounds", `${facts.bounds[0].toFixed(4)}° to ${facts.bounds[1].toFixed(4)}°`],
+    ["Angles", `${facts.angles[0].toFixed(3)}° to ${facts.angles[1].toFixed(3)}°`],
+    ["Bounds", `${shortly(facts.bounds[0])}° to ${shortly(facts.bounds[1])}°`],
     ["Out of bounds", excused > 0 ? `${facts.outOfBounds} (${excused} exempt)` : String(facts.outOfBounds)],
     ["Delaunay", facts.delaunay ? "yes, exactly" : "no"],
     ["One disk", facts.disk ? "yes" : "no"],

@@ -1,0 +1,296 @@
+// The page in a real browser. Times are printed and assert nothing.
+
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { click, counts, drop, dropFixture, facts, file, onCanvas, open, pointOnPage, settled, start } from "./browser.mjs";
+import { native } from "./native.mjs";
+
+const SHOTS = join(import.meta.dirname, "../screenshots");
+const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+let place;
+let main;
+
+before(async () => {
+  mkdirSync(SHOTS, { recursive: true });
+  place = await start();
+  main = await open(place);
+});
+
+after(() => place?.stop());
+
+const shot = (page, name, options = {}) => page.screenshot({ path: join(SHOTS, `${name}.png`), ...options });
+
+test("it begins with an example, and asks nobody else for anything", async () => {
+  assert.deepEqual(await counts(main.page), [243, 0, 0]);
+  assert.ok((await facts(main.page)).holds);
+  assert.match(await main.page.textContent("#status"), /triangles, angles 43\.\d+ to (89|90)\.\d+ degrees, certified/);
+  assert.match(await main.page.textContent("#verdict"), /^Holds/);
+  assert.ok(main.requests.every((url) => url.startsWith(place.url)), main.requests.join("\n"));
+  await shot(main.page, "light");
+});
+
+test("points are put by clicks, dragged, erased; undo and redo", async () => {
+  const { page } = main;
+  await page.click("#clear");
+  for (const [x, y] of [[0.3, 0.3], [0.7, 0.35], [0.5, 0.7]]) {
+    await click(page, x, y);
+    await settled(page);
+  }
+  assert.deepEqual(await counts(page), [3, 0, 0]);
+  assert.equal((await facts(page)).kept, 3);
+  const [x, y] = await pointOnPage(page, 1);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let i = 1; i <= 10; i++) {
+    await page.mouse.move(x + 4 * i, y + 3 * i);
+  }
+  await page.mouse.up();
+  await settled(page);
+  const moved = await pointOnPage(page, 1);
+  assert.ok(Math.hypot(moved[0] - x - 40, moved[1] - y - 30) < 1, String(moved));
+  assert.ok((await facts(page)).holds);
+  await page.click("#undo");
+  await settled(page);
+  const back = await pointOnPage(page, 1);
+  assert.ok(Math.hypot(back[0] - x, back[1] - y) < 1, "a drag is one step");
+  await page.click("#redo");
+  await settled(page);
+  await page.click("[data-tool=erase]");
+  await page.mouse.click(...(await pointOnPage(page, 0)));
+  await settled(page);
+  assert.deepEqual(await counts(page), [2, 0, 0]);
+});
+
+test("a polygon with a hole is drawn", async () => {
+  const { page } = main;
+  await page.click("#clear");
+  await page.click("[data-tool=segments]");
+  const corners = [[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.8]];
+  for (const ring of [corners, corners.map(([x, y]) => [0.35 + x * 0.3, 0.35 + y * 0.3])]) {
+    for (const [x, y] of [...ring, ring[0]]) {
+      await click(page, x, y);
+    }
+  }
+  await page.click("[data-tool=holes]");
+  await click(page, 0.5, 0.5);
+  await settled(page);
+  assert.deepEqual(await counts(page), [8, 8, 1]);
+  assert.ok((await facts(page)).holds);
+  assert.ok((await facts(page)).angles[0] >= 30 - 1e-9);
+  await page.check("#voronoi");
+  await settled(page);
+  await shot(page, "polygon");
+  await page.uncheck("#voronoi");
+});
+
+test("the keyboard alone draws, moves and erases", async () => {
+  const { page } = main;
+  await page.click("#clear");
+  await page.focus("#canvas");
+  const press = async (...keys) => {
+    for (const key of keys) await page.keyboard.press(key);
+  };
+  await press("1", "Enter", ...Array(8).fill("ArrowRight"), "Enter", ...Array(8).fill("ArrowDown"), "Enter");
+  await settled(page);
+  assert.deepEqual(await counts(page), [3, 0, 0]);
+  const before = await pointOnPage(page, 2);
+  await press("Space", "ArrowLeft", "ArrowLeft", "Space");
+  await settled(page);
+  const after = await pointOnPage(page, 2);
+  assert.ok(Math.abs(before[0] - after[0] - 20) < 0.5, `${before} ${after}`);
+  await press("Delete");
+  await settled(page);
+  assert.deepEqual(await counts(page), [2, 0, 0]);
+  await press("Control+z");
+  await settled(page);
+  assert.deepEqual(await counts(page), [3, 0, 0]);
+});
+
+test("files are dropped, and what is saved is what the program writes", async () => {
+  const { page } = main;
+  for (const name of ["points/five.node", "points/capitals.node", "graphs/letters.poly"]) {
+    await dropFixture(page, name);
+    assert.ok((await facts(page)).holds, name);
+    for (const [format, bytes] of native(name, ["node", "ele", "vtu", "msh", "svg"])) {
+      assert.ok(bytes.equals(await file(page, format)), `${name} as .${format}`);
+    }
+  }
+  await shot(page, "letters");
+  await page.selectOption("#format", "vtu");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+  assert.equal(download.suggestedFilename(), "letters.vtu");
+  const [vtu] = native("graphs/letters.poly", ["vtu"]).values();
+  assert.ok(vtu.equals(readFileSync(await download.path())));
+  await page.selectOption("#format", "png");
+  const [picture] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+  assert.equal(readFileSync(await picture.path()).subarray(1, 4).toString(), "PNG");
+  const [input] = await Promise.all([page.waitForEvent("download"), page.click("#save-input")]);
+  const saved = readFileSync(await input.path());
+  const before = await page.evaluate(() => [...globalThis.hexdelPage.document().points]);
+  await drop(page, "again.poly", saved);
+  assert.deepEqual(await page.evaluate(() => [...globalThis.hexdelPage.document().points]), before);
+});
+
+test("options change the mesh; hexagons are shown", async () => {
+  const { page } = main;
+  await dropFixture(page, "points/five.node");
+  await page.fill("#min-angle", "30");
+  await page.press("#min-angle", "Enter");
+  await settled(page);
+  assert.deepEqual((await facts(page)).bounds, [30, 90]);
+  const [ele] = native("points/five.node", ["ele"], "--min-angle=30").values();
+  assert.ok(ele.equals(await file(page, "ele")));
+  await page.fill("#min-angle", "");
+  await page.selectOption("#method", "templates");
+  await settled(page);
+  await page.check("#hexagons");
+  await settled(page);
+  assert.ok(await page.evaluate(() => globalThis.hexdelPage.drawing.hexagons.levels.length > 10));
+  assert.ok(await page.isHidden("#hexagons-note"));
+  await shot(page, "hexagons");
+  await page.uncheck("#hexagons");
+  await page.selectOption("#method", "compact");
+  await page.fill("#min-angle", "59.5");
+  await page.press("#min-angle", "Enter");
+  await settled(page);
+  assert.match(await page.textContent("#fault-text"), /no graded mesh has all angles between 59.5 and 90/);
+  await page.fill("#min-angle", "");
+  await page.press("#min-angle", "Enter");
+  await settled(page);
+  assert.ok(await page.isHidden("#fault"));
+});
+
+test("an error is told in the library's words, at its place, and mended", async () => {
+  const { page } = main;
+  await dropFixture(page, "graphs/crossing.poly");
+  assert.match(await page.textContent("#fault-text"), /segments \d+ and \d+ cross at/);
+  await shot(page, "error");
+  await page.click("#fault-repair");
+  await settled(page);
+  assert.ok(await page.isHidden("#fault"));
+  assert.ok((await facts(page)).holds);
+  await page.uncheck("#repair");
+  await settled(page);
+  await drop(page, "bad.node", Buffer.from("2 2 0 0\n0 0 0\n1 zero 1\n"));
+  assert.match(await page.textContent("#fault-text"), /^bad\.node:3/);
+});
+
+test("a link holds the input and the options", async () => {
+  const { page } = main;
+  await page.selectOption("#effort", "fast");
+  await dropFixture(page, "graphs/square_with_hole.poly");
+  const before = await counts(page);
+  await page.click("#link");
+  await page.waitForFunction(() => location.hash.startsWith("#in="));
+  const fragment = new URL(page.url()).hash;
+  await page.selectOption("#effort", "standard");
+  await settled(page);
+  const other = await open(place, {}, fragment);
+  assert.deepEqual(await counts(other.page), before);
+  assert.equal(await other.page.inputValue("#effort"), "fast");
+  assert.ok((await facts(other.page)).holds);
+  await other.page.context().close();
+  const damaged = await place.browser.newPage();
+  await damaged.goto(`${place.url}#in=nonsense`);
+  await damaged.waitForFunction(() => !document.querySelector("#fault").hidden);
+  assert.equal(await damaged.textContent("#fault-text"), "the link is damaged");
+  await damaged.close();
+});
+
+test("long work shows progress and is cancelled", async () => {
+  const { page } = main;
+  const grid = Array.from({ length: 6000 }, (_, i) => `${i % 77},${Math.floor(i / 77) + ((i * 7919) % 101) / 300}`);
+  const dropping = drop(page, "grid.csv", Buffer.from(`x,y\n${grid.join("\n")}\n`));
+  await page.waitForSelector("#cancel", { state: "visible" });
+  await page.waitForFunction(() => document.querySelector("#phase").textContent.includes(": "));
+  await page.click("#cancel");
+  await dropping;
+  assert.equal(await page.textContent("#status"), "Cancelled.");
+  await dropFixture(page, "points/five.node");
+  assert.ok((await facts(page)).holds);
+});
+
+test("the mesh follows a point that is dragged", async (context) => {
+  const { page } = main;
+  for (const [name, label] of [[undefined, "1,000 points"], ["points/capitals.node", "243 points"], ["graphs/airfoil.poly", "airfoil"]]) {
+    if (name) {
+      await dropFixture(page, name);
+    } else {
+      await page.selectOption("#example", { label: "1,000 uniform points" });
+      await page.waitForTimeout(100);
+      await settled(page);
+    }
+    const index = name?.startsWith("graphs") ? 3 : 17;
+    const [x, y] = await pointOnPage(page, index);
+    const before = await page.evaluate(() => globalThis.hexdelPage.updates);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    const begun = performance.now();
+    for (let i = 1; performance.now() - begun < 2500; i++) {
+      await page.mouse.move(x + 6 * Math.sin(i / 9) + 5, y + 6 * Math.cos(i / 7));
+      await page.waitForTimeout(8);
+    }
+    const seconds = (performance.now() - begun) / 1000;
+    const updates = (await page.evaluate(() => globalThis.hexdelPage.updates)) - before;
+    const frame = await page.evaluate(() => globalThis.hexdelPage.drawing.drawNow());
+    await page.mouse.up();
+    await settled(page);
+    assert.ok(updates > 1, `${label}: ${updates} updates`);
+    assert.ok((await facts(page)).holds, label);
+    const ratio = (1000 * seconds) / updates / frame;
+    context.diagnostic(
+      `${label}: ${(updates / seconds).toFixed(1)} updates a second, an update takes ${ratio.toFixed(1)} times its drawing (${frame.toFixed(1)} ms)`,
+    );
+  }
+});
+
+test("a hundred thousand triangles are drawn", async (context) => {
+  const { page } = main;
+  await page.selectOption("#method", "templates");
+  await page.selectOption("#example", { label: "1,000 uniform points" });
+  await page.waitForTimeout(100);
+  await settled(page);
+  const { triangles } = await facts(page);
+  assert.ok(triangles > 100_000, String(triangles));
+  const time = () => page.evaluate(() => Math.min(...[1, 2, 3].map(() => globalThis.hexdelPage.drawing.drawNow())));
+  const whole = await time();
+  await shot(page, "hundred-thousand");
+  await page.evaluate(() => globalThis.hexdelPage.drawing.zoom(3));
+  const edges = await time();
+  context.diagnostic(`${triangles} triangles: ${whole.toFixed(1)} ms as a whole, ${edges.toFixed(1)} ms magnified, with edges`);
+  await page.click("#fit");
+  await page.selectOption("#method", "compact");
+});
+
+test("the page is accessible in light, dark and on a phone", async () => {
+  const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
+  for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }], ["phone", phone], ["phone-dark", { ...phone, colorScheme: "dark" }]]) {
+    const { page, faults } = await open(place, options);
+    await page.evaluate(AXE);
+    const { violations } = await page.evaluate(() => globalThis.axe.run());
+    const texts = violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`);
+    assert.deepEqual(texts, [], name);
+    if (name !== "light") {
+      await shot(page, name, { fullPage: name === "phone" });
+    }
+    if (options.hasTouch) {
+      const before = await counts(page);
+      await page.touchscreen.tap(...(await onCanvas(page, 0.5, 0.12)));
+      await settled(page);
+      assert.equal((await counts(page))[0], before[0] + 1);
+      const width = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(width <= 390, `${width} pixels wide`);
+    }
+    assert.deepEqual(faults, []);
+    await page.context().close();
+  }
+});
+
+test("nothing went wrong that nobody saw", () => {
+  assert.deepEqual(main.faults, []);
+  assert.ok(main.requests.every((url) => url.startsWith(place.url) || url.startsWith("blob:")));
+});
