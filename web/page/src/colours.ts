@@ -38,7 +38,7 @@ export function themeOf(dark: boolean): Theme {
     ? {
         ...common,
         paper: "#14181d",
-        edge: "rgba(8, 11, 14, 0.75)",
+        edge: "rgba(255, 255, 255, 0.3)",
         segment: "#ffffff",
         point: "#ffffff",
         ring: "#14181d",
@@ -71,7 +71,7 @@ export function scaleColour(t: number, dark: boolean): readonly [number, number,
   const below = Math.min(Math.floor(position), SCALE.length - 2);
   const [from, to] = [SCALE[below], SCALE[below + 1]] as const;
   const paper = dark ? [0x14, 0x18, 0x1d] : [0xff, 0xff, 0xff];
-  const part = dark ? 0.72 : 0.62;
+  const part = dark ? 0.8 : 0.62;
   const channel = (i: 0 | 1 | 2) => {
     const [a, b] = [from?.[i] ?? 0, to?.[i] ?? 0];
     const pure = a + (b - a) * (position - below);

@@ -59,7 +59,8 @@ export class Drawing {
   /** What the keyboard has taken up. */
   private taken: Hit | undefined;
   private asked = false;
-  private fitted = false;
+  /** Whether the mesh that comes next is to be shown whole. */
+  private fitsNext = false;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -100,9 +101,9 @@ export class Drawing {
     if (!mesh) {
       this.dual = this.hexagons = undefined;
     }
-    if (!this.fitted && mesh) {
-      // The mesh covers more than its points.
-      this.fitted = true;
+    if (this.fitsNext && mesh) {
+      // It covers more than its points.
+      this.fitsNext = false;
       this.fit();
     }
     this.refresh();
@@ -123,17 +124,21 @@ export class Drawing {
     this.refresh();
   }
 
-  /** Shows the whole mesh, or the input; of an input that has no mesh yet, the mesh when it comes. */
+  /** Begins with another input, without a mesh. All of it is shown, and its mesh when it comes. */
+  begin(): void {
+    this.endChain();
+    this.setMesh(undefined);
+    this.fitsNext = this.host.doc().points.length > 0;
+    this.fit();
+  }
+
+  /** Shows the whole mesh and the input. */
   fit(): void {
-    const points = this.host.doc().points;
-    const box = extent(points);
-    const covered = this.mesh && this.fitted ? extent(this.mesh.vertices) : undefined;
-    if (box && !(covered && contains(covered, box))) {
-      this.fitted = false;
-    }
-    const shown = this.fitted ? covered : box;
-    if (shown) {
-      this.view.fit(shown);
+    const { points } = this.host.doc();
+    const all = this.mesh ? Float64Array.from([...points, ...boxOf(this.mesh.vertices)]) : points;
+    const box = extent(all);
+    if (box) {
+      this.view.fit(box);
       this.refresh();
     }
   }
@@ -445,7 +450,7 @@ function placeOf(doc: Document, index: number): Place {
   return [doc.points[2 * index] ?? NaN, doc.points[2 * index + 1] ?? NaN];
 }
 
-function contains(outer: readonly [Place, Place], inner: readonly [Place, Place]): boolean {
-  const [[a, b], [c, e]] = outer;
-  return a <= inner[0][0] && b <= inner[0][1] && c >= inner[1][0] && e >= inner[1][1];
+/** The corners of the box around points, flat. */
+function boxOf(flat: Float64Array): number[] {
+  return (extent(flat) ?? []).flat();
 }

@@ -84,7 +84,8 @@ function want(live: boolean, anew = false): void {
     return;
   }
   wanted = { live, anew };
-  if (working && !working.live && !element("progress").hidden) {
+  const slow = live || !element("progress").hidden;
+  if (working && !working.live && slow && !(live && stepwise)) {
     client.cancel();
     drawing.hasSession = false;
   }
@@ -191,12 +192,16 @@ function showFault(fault: Fault | undefined): void {
     element("fault-text").textContent = fault.message;
     const mendable = ["too_close", "crossing", "overlap", "zero_length", "duplicate"].includes(fault.kind);
     element("fault-repair").hidden = !mendable || history.current.segments.length === 0 || options.repair === true;
-    element("status").textContent = "Not meshed; the last mesh is shown.";
+    element("status").textContent = facts ? "Not meshed. The mesh before is shown." : "Not meshed.";
+    if (facts) {
+      element("verdict").textContent = `Of the mesh before: ${facts.holds ? "holds" : "does not hold"}.`;
+    }
   }
 }
 
 function labelOf(fault: Fault): string {
-  return fault.item && fault.index.length > 0 ? `${fault.item} ${fault.index.join(", ")}` : "";
+  const { item, index } = fault;
+  return item && index.length > 0 ? `${item}${index.length > 1 ? "s" : ""} ${index.join(", ")}` : "";
 }
 
 function placeOf(fault: Fault): d.Place | undefined {
@@ -233,8 +238,11 @@ function open(doc: d.Document, called: string, warnings: readonly string[] = [])
   history.push(doc);
   name = called;
   listNotes(element("read-notes"), warnings);
-  drawing.endChain();
-  drawing.fit();
+  facts = undefined;
+  showFacts(undefined);
+  showHistogram(undefined);
+  drawing.hasSession = false;
+  drawing.begin();
   changed();
 }
 
@@ -263,6 +271,10 @@ async function openExample(index: number): Promise<void> {
 }
 
 async function save(): Promise<void> {
+  if (!facts) {
+    element("status").textContent = "There is no mesh to save.";
+    return;
+  }
   const format = element<HTMLSelectElement>("format").value;
   try {
     if (format === "png") {

@@ -96,8 +96,8 @@ export function showFacts(facts: Facts | undefined): void {
     ["Out of bounds", excused > 0 ? `${facts.outOfBounds} (${excused} exempt)` : String(facts.outOfBounds)],
     ["Delaunay", facts.delaunay ? "yes, exactly" : "no"],
     ["One disk", facts.disk ? "yes" : "no"],
-    ["Points that are vertices", `${facts.kept} of ${facts.inputs}`],
-    ["Aspect ratio at most", facts.aspect.toFixed(4)],
+    ["Points kept", `${facts.kept} of ${facts.inputs}`],
+    ["Aspect ratio", facts.aspect.toFixed(4)],
     ["Shortest edge", facts.shortest.toPrecision(4)],
   ];
   for (const [name, value] of rows) {
@@ -144,7 +144,7 @@ function svg(name: string, attributes: Record<string, string | number>): SVGElem
   return made;
 }
 
-/** The angles of a mesh, two degrees a bar, with the bounds. */
+/** The angles of a mesh, a degree a bar, with the bounds. */
 export function showHistogram(facts: Facts | undefined): void {
   const box = element("histogram");
   box.replaceChildren();
@@ -162,7 +162,7 @@ export function showHistogram(facts: Facts | undefined): void {
   for (let i = 0; i < last; i++) {
     const tall = ((histogram[i] ?? 0) / most) * (base - 4);
     const from = x(i * degrees);
-    picture.append(svg("rect", { x: from + 0.4, y: base - tall, width: x(degrees) - 0.8, height: tall }));
+    picture.append(svg("rect", { x: from + 0.2, y: base - tall, width: x(degrees) - 0.4, height: tall }));
   }
   picture.append(svg("line", { x1: 0, x2: width, y1: base, y2: base }));
   for (const bound of bounds) {

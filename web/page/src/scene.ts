@@ -6,11 +6,16 @@ import { type Document, type Place, place } from "./document.js";
 import { Raster } from "./raster.js";
 import type { View } from "./view.js";
 
-/** Edges shorter than so many pixels on average are not drawn. */
+/** Edges shorter than so many pixels are not drawn: they would hide the colours. */
 const LEAST_EDGE = 3.5;
 
-/** More points than so many are drawn as dots without a ring. */
-const MANY_POINTS = 3000;
+/** Radii of points in pixels: a part of the edges' length, so that the mesh is seen. */
+const POINT_PER_EDGE = 0.2;
+const LEAST_POINT = 1.2;
+const MOST_POINT = 4;
+
+/** Points of this radius have a ring around them. */
+const RINGED = 2.4;
 
 export interface DrawnMesh {
   readonly vertices: Float64Array;
@@ -61,8 +66,8 @@ export class Painter {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.lineJoin = "round";
     context.lineCap = "round";
-    if (scene.mesh && this.meanEdge * view.scale >= LEAST_EDGE) {
-      stroke(context, view, scene.mesh.vertices, this.lines, theme.edge, 0.7);
+    if (scene.mesh) {
+      stroke(context, view, scene.mesh.vertices, this.lines, theme.edge, 0.7, LEAST_EDGE);
     }
     if (scene.hexagons) {
       outlines(context, view, scene.hexagons.offsets, scene.hexagons.corners, theme.hexagon, 1.1);
@@ -70,7 +75,8 @@ export class Painter {
     if (scene.dual) {
       outlines(context, view, scene.dual.cellOffsets, scene.dual.cellCorners, theme.cell, 0.9);
     }
-    drawInput(context, view, theme, scene);
+    const radius = scene.mesh ? this.meanEdge * view.scale * POINT_PER_EDGE : MOST_POINT;
+    drawInput(context, view, theme, scene, Math.min(Math.max(radius, LEAST_POINT), MOST_POINT));
     scene.marks.forEach((mark) => drawMark(context, view, theme, mark));
     if (scene.cursor) {
       drawCursor(context, theme, scene.cursor);
@@ -146,7 +152,7 @@ function meanLength(vertices: Float64Array, lines: Uint32Array): number {
   return n > 0 ? sum / n : 0;
 }
 
-/** Lines between vertices, those outside of the canvas left away. */
+/** Lines between vertices, short ones and those outside of the canvas left away. */
 function stroke(
   context: CanvasRenderingContext2D,
   view: View,
@@ -154,6 +160,7 @@ function stroke(
   lines: Uint32Array,
   colour: string,
   width: number,
+  least = 0,
 ): void {
   const [x0, y0] = view.toPlane([0, 0]);
   const { scale, width: right, height: bottom } = view;
@@ -165,7 +172,8 @@ function stroke(
     const bx = ((vertices[b] as number) - x0) * scale;
     const by = (y0 - (vertices[b + 1] as number)) * scale;
     const outside = (ax < 0 && bx < 0) || (ay < 0 && by < 0) || (ax > right && bx > right) || (ay > bottom && by > bottom);
-    if (!outside) {
+    const short = (ax - bx) ** 2 + (ay - by) ** 2 < least * least;
+    if (!outside && !short) {
       context.moveTo(ax, ay);
       context.lineTo(bx, by);
     }
@@ -206,7 +214,7 @@ function outlines(
   context.stroke();
 }
 
-function drawInput(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene): void {
+function drawInput(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene, radius: number): void {
   const { doc } = scene;
   stroke(context, view, doc.points, doc.segments, theme.segment, 2);
   if (scene.chain && scene.pointer) {
@@ -219,7 +227,7 @@ function drawInput(context: CanvasRenderingContext2D, view: View, theme: Theme, 
     context.stroke();
     context.setLineDash([]);
   }
-  drawPoints(context, view, theme, scene);
+  drawPoints(context, view, theme, scene, radius);
   for (let h = 0; h < doc.holes.length / 2; h++) {
     const [x, y] = view.toPixels(place(doc.holes, h));
     context.beginPath();
@@ -233,9 +241,8 @@ function drawInput(context: CanvasRenderingContext2D, view: View, theme: Theme, 
   }
 }
 
-function drawPoints(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene): void {
+function drawPoints(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene, radius: number): void {
   const count = scene.doc.points.length / 2;
-  const radius = count > MANY_POINTS ? 1 : count > 300 ? 2 : 3.5;
   context.beginPath();
   for (let i = 0; i < count; i++) {
     const [x, y] = view.toPixels(place(scene.doc.points, i));
@@ -246,7 +253,7 @@ function drawPoints(context: CanvasRenderingContext2D, view: View, theme: Theme,
   }
   context.fillStyle = theme.point;
   context.fill();
-  if (count <= MANY_POINTS) {
+  if (radius >= RINGED) {
     context.strokeStyle = theme.ring;
     context.lineWidth = 1;
     context.stroke();

@@ -15,8 +15,8 @@ const STEPS = 8;
 /** Milliseconds between two reports of progress. */
 const TELL_EVERY = 60;
 
-/** Bins of the histogram: two degrees each. */
-const BINS = 90;
+/** Bins of the histogram: a degree each. */
+const BINS = 180;
 
 let ready: Promise<void>;
 let made: Mesh | undefined;
