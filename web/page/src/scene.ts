@@ -9,8 +9,8 @@ import type { View } from "./view.js";
 /** Edges shorter than so many pixels are not drawn: they would hide the colours. */
 const LEAST_EDGE = 3.5;
 
-/** Radii of points in pixels: a part of the edges' length, so that the mesh is seen. */
-const POINT_PER_EDGE = 0.2;
+/** Radii of points in pixels: a part of the length of short edges, so that the mesh is seen. */
+const POINT_PER_EDGE = 0.25;
 const LEAST_POINT = 1.2;
 const MOST_POINT = 4;
 
@@ -53,7 +53,7 @@ export class Painter {
   private drawn: DrawnMesh | undefined;
   private classes: Uint8Array = new Uint8Array();
   private lines: Uint32Array = new Uint32Array();
-  private meanEdge = 0;
+  private shortEdge = 0;
 
   /** Draws all of it, at so many pixels of the canvas for each of CSS. */
   draw(context: CanvasRenderingContext2D, ratio: number, view: View, theme: Theme, scene: Scene): void {
@@ -75,7 +75,7 @@ export class Painter {
     if (scene.dual) {
       outlines(context, view, scene.dual.cellOffsets, scene.dual.cellCorners, theme.cell, 0.9);
     }
-    const radius = scene.mesh ? this.meanEdge * view.scale * POINT_PER_EDGE : MOST_POINT;
+    const radius = scene.mesh ? this.shortEdge * view.scale * POINT_PER_EDGE : MOST_POINT;
     drawInput(context, view, theme, scene, Math.min(Math.max(radius, LEAST_POINT), MOST_POINT));
     scene.marks.forEach((mark) => drawMark(context, view, theme, mark));
     if (scene.cursor) {
@@ -91,7 +91,7 @@ export class Painter {
     this.drawn = mesh;
     this.classes = classesOf(mesh.angles, mesh.least);
     this.lines = linesOf(mesh.triangles);
-    this.meanEdge = meanLength(mesh.vertices, this.lines);
+    this.shortEdge = shortLength(mesh.vertices, this.lines);
   }
 }
 
@@ -141,15 +141,16 @@ class EdgeSet {
   }
 }
 
-function meanLength(vertices: Float64Array, lines: Uint32Array): number {
+/** The length that three in ten of the edges are shorter than, from a sample. */
+function shortLength(vertices: Float64Array, lines: Uint32Array): number {
   const step = 2 * Math.max(1, Math.floor(lines.length / 4000));
-  let [sum, n] = [0, 0];
+  const lengths: number[] = [];
   for (let i = 0; i < lines.length; i += step) {
     const [a, b] = [place(vertices, lines[i] as number), place(vertices, lines[i + 1] as number)];
-    sum += Math.hypot(a[0] - b[0], a[1] - b[1]);
-    n += 1;
+    lengths.push(Math.hypot(a[0] - b[0], a[1] - b[1]));
   }
-  return n > 0 ? sum / n : 0;
+  lengths.sort((a, b) => a - b);
+  return lengths[Math.floor(0.3 * lengths.length)] ?? 0;
 }
 
 /** Lines between vertices, short ones and those outside of the canvas left away. */
