@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { HexdelError, Session, generate, init, input, mesh, meshPslg, read } from "hexdel";
+import { HexdelError, Session, formats, generate, init, input, mesh, meshPslg, read } from "hexdel";
 import { ROOT, native } from "./native.mjs";
 
 const fixture = (name) => readFileSync(join(ROOT, "fixtures", name));
@@ -89,6 +89,7 @@ test("errors are typed and name the place", () => {
   failing(() => meshPslg({ points: [[0, 0]], segments: [[0, -1]] }), { kind: "segment_end", item: "segment", index: [0] });
   failing(() => read("2 2 0 0\n0 0 zero\n", "a.node"), { kind: "file" });
   failing(() => read("", "a.docx"), { kind: "file" });
+  failing(() => mesh([[0, 0]]).write("docx"), { kind: "file" });
   // The module is none the worse for them.
   assert.ok(mesh([[0, 0], [1, 0]]).holds);
 });
@@ -146,5 +147,6 @@ test("hexagons, histogram and angles", async () => {
   const histogram = made.histogram(180);
   assert.equal(histogram.reduce((a, b) => a + b), made.triangles.length);
   assert.ok(histogram.slice(0, 43).every((n) => n === 0) && histogram.slice(91).every((n) => n === 0));
+  assert.ok(formats().includes("vtu"));
   assert.ok(made.smallestAngles().every((angle) => angle > 43.8977 && angle <= 60.0001));
 });

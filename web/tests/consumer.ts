@@ -1,6 +1,6 @@
 // What a user's compiler must accept.
 
-import { HexdelError, Session, init, mesh, meshPslg, read, type Certificate, type Mesh, type Options } from "hexdel";
+import { HexdelError, Session, generate, init, mesh, meshPslg, read, type Certificate, type Mesh, type Options } from "hexdel";
 
 await init();
 const options: Options = { minAngle: 30, size: [1, { polygon: [[0, 0], [1, 0], [0, 1]], length: 0.1 }] };
@@ -14,8 +14,8 @@ meshPslg(graph).dual().cellOffsets.at(-1);
 meshPslg({ points: graph.points, segments: graph.segments, regions: graph.regions }).free();
 // @ts-expect-error: there is no such option.
 mesh([[0, 0]], { minimum: 3 });
-// @ts-expect-error: nor such a format.
-made.write("docx");
+// @ts-expect-error: nor such a kind.
+generate("random", 3);
 if (certificate.delaunay && bytes.length > 0 && !(made instanceof HexdelError)) {
   throw new HexdelError({ kind: "option", message: "" });
 }

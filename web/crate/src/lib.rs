@@ -35,6 +35,12 @@ pub fn version() -> String {
     env!("CARGO_PKG_VERSION").to_owned()
 }
 
+/// The names of the formats that meshes are written in.
+#[wasm_bindgen]
+pub fn mesh_formats() -> Vec<String> {
+    hexdel::io::MeshFormat::names().map(ToOwned::to_owned).collect()
+}
+
 /// Test points of a kind, as x and y by turns.
 #[wasm_bindgen]
 pub fn generate(kind: &str, count: u32, seed: u32) -> Result<Vec<f64>, JsValue> {

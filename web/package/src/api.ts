@@ -1,6 +1,6 @@
 // The interface: meshes, graphs, sessions.
 
-import { RawGraph, RawMesh, RawSession, generate as rawGenerate, mesh as rawMesh } from "../wasm/hexdel_web.js";
+import { RawGraph, RawMesh, RawSession, generate as rawGenerate, mesh as rawMesh, mesh_formats } from "../wasm/hexdel_web.js";
 import { HexdelError, guarded } from "./errors.js";
 import type {
   Certificate, Delta, Dual, Format, Hexagons, Kind, Notes, Options, Points, Progress, Pslg, Region, Segments,
@@ -308,6 +308,11 @@ export function read(contents: Uint8Array | string, name: string): Input {
 /** Points or a PSLG that are in arrays, as what files are read to. */
 export function input(of: Points | Pslg): Input {
   return new Input(graphOf(of).raw);
+}
+
+/** The names of the formats that meshes are written in. */
+export function formats(): Format[] {
+  return guarded(() => mesh_formats());
 }
 
 /** Test points: `uniform`, `clusters` and other kinds, the same on every platform. */

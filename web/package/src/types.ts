@@ -130,10 +130,10 @@ export interface Hexagons {
   readonly levels: Uint32Array;
 }
 
-/** The formats that meshes are written in, by extension. */
+/** The formats that meshes are written in, by extension; `formats()` lists them all. */
 export type Format =
   | "node" | "ele" | "edge" | "neigh" | "poly" | "vtu" | "msh" | "msh2" | "obj" | "off" | "mesh"
-  | "json" | "ron" | "svg" | "geojson";
+  | "json" | "ron" | "svg" | (string & {});
 
 /** What a step of a session did. Numbers of vertices and triangles are never used twice. */
 export interface Delta {
@@ -148,5 +148,6 @@ export interface Delta {
   readonly trianglesAdded: { readonly ids: Float64Array; readonly corners: Float64Array };
 }
 
-/** The kinds of test points. */
-export type Kind = string;
+/** The kinds of test points, as `hexdel generate` has them. */
+export type Kind =
+  | "uniform" | "line" | "clusters" | "grid" | "jittered" | "circle" | "spiral" | "pairs" | "contrast";

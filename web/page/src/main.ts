@@ -336,6 +336,16 @@ async function openLink(): Promise<boolean> {
   }
 }
 
+/** Takes formats off the list that this version of the library does not write. */
+async function offerFormats(): Promise<void> {
+  const known = ["png", ...(await client.ask({ kind: "formats" }))];
+  for (const option of [...element<HTMLSelectElement>("format").options]) {
+    if (!option.value.split("+").every((name) => known.includes(name))) {
+      option.remove();
+    }
+  }
+}
+
 function connect(): void {
   const on = (id: string, event: string, act: () => void) => element(id).addEventListener(event, act);
   for (const button of document.querySelectorAll<HTMLButtonElement>("[data-tool]")) {
@@ -403,4 +413,6 @@ function themed(): void {
 connect();
 themed();
 changed();
+// A worker that was ended early says nothing; saving would then.
+offerFormats().catch(() => {});
 void openLink().then((opened) => (opened ? undefined : openExample(0)));

@@ -1,14 +1,15 @@
 // What the page and its worker say to each other.
 
-import type { Dual, Hexagons, Notes, Options, Phase } from "../../package/dist/index.js";
+import type { Dual, Hexagons, Kind, Notes, Options, Phase } from "../../package/dist/index.js";
 import type { Document } from "./document.js";
 
 /** A question of the page. */
 export type Request =
   | { readonly kind: "mesh"; readonly doc: Document; readonly options: Options; readonly live: boolean; readonly anew: boolean }
   | { readonly kind: "read"; readonly bytes: Uint8Array; readonly name: string }
-  | { readonly kind: "generate"; readonly of: string; readonly count: number }
+  | { readonly kind: "generate"; readonly of: Kind; readonly count: number }
   | { readonly kind: "write"; readonly format: string }
+  | { readonly kind: "formats" }
   | { readonly kind: "dual" }
   | { readonly kind: "hexagons" };
 
@@ -68,6 +69,7 @@ export interface Answers {
   read: ReadAnswer;
   generate: Document;
   write: Uint8Array;
+  formats: readonly string[];
   dual: Dual;
   hexagons: Hexagons | undefined;
 }

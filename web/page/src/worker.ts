@@ -1,6 +1,6 @@
 // The worker: holds the mesh and, of some thousand points, its session.
 
-import { HexdelError, Input, Mesh, Session, generate, init, input, mesh, read } from "../../package/dist/index.js";
+import { HexdelError, Input, Mesh, Session, formats, generate, init, input, mesh, read } from "../../package/dist/index.js";
 import type { Options, Progress } from "../../package/dist/index.js";
 import { EMPTY, type Document } from "./document.js";
 import type { Fault, Facts, FromWorker, MeshAnswer, ReadAnswer, Request, ToWorker } from "./protocol.js";
@@ -64,7 +64,9 @@ function answered(request: Request, progress: Progress): [unknown, Transferable[
     case "generate":
       return [{ ...EMPTY, points: generate(request.of, request.count) } satisfies Document, []];
     case "write":
-      return [present().write(request.format as Parameters<Mesh["write"]>[0]), []];
+      return [present().write(request.format), []];
+    case "formats":
+      return [formats(), []];
     case "dual":
       return [present().dual(), []];
     case "hexagons":
