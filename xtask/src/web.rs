@@ -55,13 +55,11 @@ pub(crate) fn test() -> Outcome {
     web.build(&compiler)?;
     let program = web.program()?;
     web.node_test("package.test.mjs", &program, None)?;
-    match browser() {
-        Some(browser) => web.node_test("page.test.mjs", &program, Some(&browser)),
-        None => {
-            eprintln!("web: there is no Chromium: the tests of the page are skipped");
-            Ok(())
-        }
-    }
+    let Some(browser) = browser() else {
+        eprintln!("web: there is no Chromium: the tests of the page are skipped");
+        return Ok(());
+    };
+    web.node_test("page.test.mjs", &program, Some(&browser))
 }
 
 /// Where things are.
@@ -146,22 +144,8 @@ impl Web {
         bind.args(["run", "--quiet", "--locked", "--target-dir"]).arg(self.target.join("bind")).arg("--");
         run(bind.args([&module, &folder]).current_dir(self.source.join("bind")))?;
         run(Command::new("node").arg("build.mjs").current_dir(&self.source))?;
-        self.weigh(&folder.join("hexdel_web_bg.wasm"))?;
+        weigh(&folder.join("hexdel_web_bg.wasm"))?;
         eprintln!("web: built web/package and web/dist in {:.0} s", begun.elapsed().as_secs_f64());
-        Ok(())
-    }
-
-    /// Says how large the module is, and fails if it is too large.
-    fn weigh(&self, module: &Path) -> Outcome {
-        let script = "process.stdout.write(String(zlib.gzipSync(fs.readFileSync(process.argv[1]), \
-                      { level: 9 }).length))";
-        let output = Command::new("node").args(["-e", script]).arg(module).output()?;
-        let compressed: u64 = String::from_utf8(output.stdout)?.trim().parse()?;
-        let whole = fs::metadata(module)?.len();
-        eprintln!("web: the module has {whole} bytes, compressed {compressed}");
-        if compressed > MOST {
-            return Err(format!("the compressed module has {compressed} bytes, more than {MOST}").into());
-        }
         Ok(())
     }
 
@@ -169,7 +153,10 @@ impl Web {
     fn program(&self) -> Result<PathBuf, Box<dyn std::error::Error>> {
         let target = self.target.parent().unwrap_or(&self.target);
         let mut build = cargo();
-        build.args(["build", "--quiet", "--locked", "-p", "hexdel-cli", "--target-dir"]).arg(target);
+        // With the features of the whole workspace, as its tests have compiled it.
+        build
+            .args(["build", "--quiet", "--locked", "--workspace", "--bin", "hexdel", "--target-dir"])
+            .arg(target);
         run(build.current_dir(tidy::root()))?;
         Ok(target.join("debug").join(format!("hexdel{}", env::consts::EXE_SUFFIX)))
     }
@@ -206,6 +193,20 @@ impl Compiler {
             }
         }
     }
+}
+
+/// Says how large the module is, and fails if it is too large.
+fn weigh(module: &Path) -> Outcome {
+    let script = "process.stdout.write(String(zlib.gzipSync(fs.readFileSync(process.argv[1]), \
+                  { level: 9 }).length))";
+    let output = Command::new("node").args(["-e", script]).arg(module).output()?;
+    let compressed: u64 = String::from_utf8(output.stdout)?.trim().parse()?;
+    let whole = fs::metadata(module)?.len();
+    eprintln!("web: the module has {whole} bytes, compressed {compressed}");
+    if compressed > MOST {
+        return Err(format!("the compressed module has {compressed} bytes, more than {MOST}").into());
+    }
+    Ok(())
 }
 
 /// Cargo as this task was called by, so that a chosen toolchain stays chosen.

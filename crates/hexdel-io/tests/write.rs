@@ -11,7 +11,7 @@ use std::path::Path;
 use hexdel_geom::{DVec2, Pslg, TriMesh, VertexId};
 use hexdel_io::{
     MarkedEdge, MeshFormat, MeshView, Overlay, OverlayClass, Picture, Polygon, ReadError, Rgb, WriteError,
-    read_mesh, write_mesh, write_mesh_to, write_points,
+    read_mesh, write_mesh, write_mesh_pair_to, write_mesh_to, write_points,
 };
 use support::squares;
 
@@ -39,6 +39,10 @@ fn a_pair_of_files_and_nothing_else() {
     assert_eq!(nodes, "4 2 0 0\n0 0.0 0.0\n1 1.0 0.0\n2 0.0 1.0\n3 1.0 1.0\n");
     let elements = fs::read_to_string(folder.path().join("m.ele")).unwrap();
     assert_eq!(elements, "2 3 0\n0 0 1 3\n1 0 3 2\n");
+    let mut pair = [Vec::new(), Vec::new()];
+    let [to_nodes, to_elements] = &mut pair;
+    write_mesh_pair_to(to_nodes, to_elements, &MeshView::new(&squares(1)), "stream").unwrap();
+    assert_eq!(pair.map(|bytes| String::from_utf8(bytes).unwrap()), [nodes, elements]);
 }
 
 #[test]
