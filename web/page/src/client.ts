@@ -36,7 +36,7 @@ export class Client {
     private readonly script: URL,
     wasm: URL,
   ) {
-    this.module = WebAssembly.compileStreaming(fetch(wasm));
+    this.module = compiled(wasm);
     this.start();
   }
 
@@ -45,14 +45,12 @@ export class Client {
     return this.pending.size > 0;
   }
 
-  async ask<K extends Request["kind"]>(request: Request & { kind: K }): Promise<Answers[K]> {
+  ask<K extends Request["kind"]>(request: Request & { kind: K }): Promise<Answers[K]> {
     const worker = this.worker ?? this.start();
     const id = ++this.last;
     const answer = new Promise<unknown>((resolve, reject) => this.pending.set(id, { resolve, reject }));
-    await this.module;
-    if (this.pending.has(id)) {
-      worker.postMessage({ id, request } satisfies ToWorker);
-    }
+    // If there is no module, whoever started the worker says so to all.
+    void this.module.then(() => this.pending.has(id) && worker.postMessage({ id, request } satisfies ToWorker), () => {});
     return answer as Promise<Answers[K]>;
   }
 
@@ -99,4 +97,16 @@ export class Client {
     this.pending.clear();
     all.forEach((pending) => pending.reject(new Refusal(fault)));
   }
+}
+
+/** Compiles a module, also of a server that does not know its type. */
+async function compiled(wasm: URL): Promise<WebAssembly.Module> {
+  const response = await fetch(wasm);
+  if (!response.ok) {
+    throw new Error(`${wasm.pathname}: ${response.status}`);
+  }
+  if (response.headers.get("content-type") === "application/wasm") {
+    return WebAssembly.compileStreaming(response);
+  }
+  return WebAssembly.compile(await response.arrayBuffer());
 }

@@ -244,17 +244,23 @@ function drawInput(context: CanvasRenderingContext2D, view: View, theme: Theme, 
 
 function drawPoints(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene, radius: number): void {
   const count = scene.doc.points.length / 2;
+  context.fillStyle = theme.point;
   context.beginPath();
   for (let i = 0; i < count; i++) {
     const [x, y] = view.toPixels(place(scene.doc.points, i));
-    if (x > -9 && y > -9 && x < view.width + 9 && y < view.height + 9) {
+    if (x < -9 || y < -9 || x > view.width + 9 || y > view.height + 9) {
+      continue;
+    }
+    if (radius >= RINGED) {
       context.moveTo(x + radius, y);
       context.arc(x, y, radius, 0, 2 * Math.PI);
+    } else {
+      // Much faster, and no different at this size.
+      context.fillRect(x - 0.9 * radius, y - 0.9 * radius, 1.8 * radius, 1.8 * radius);
     }
   }
-  context.fillStyle = theme.point;
-  context.fill();
   if (radius >= RINGED) {
+    context.fill();
     context.strokeStyle = theme.ring;
     context.lineWidth = 1;
     context.stroke();

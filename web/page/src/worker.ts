@@ -84,7 +84,7 @@ function present(): Mesh {
 function meshed(request: Request & { kind: "mesh" }, progress: Progress): MeshAnswer {
   const { doc, options, live, anew } = request;
   const begun = performance.now();
-  const stepwise = !anew && stepped(doc, options);
+  const stepwise = !anew && follows(doc, options, live);
   if (stepwise && live && session) {
     const arrays = session.session.arrays();
     const angles = smallestAngles(arrays.vertices, arrays.triangles);
@@ -140,6 +140,18 @@ function begin(doc: Document, options: Options): void {
     session = { session: begun, options: JSON.stringify(options), ids: byPlace };
   } catch {
     // Duplicates have no session; they are meshed anew.
+  }
+}
+
+/** Whether the session follows. What it refuses is tried anew when nothing is being dragged. */
+function follows(doc: Document, options: Options, live: boolean): boolean {
+  try {
+    return stepped(doc, options);
+  } catch (error) {
+    if (live) {
+      throw error;
+    }
+    return false;
   }
 }
 
