@@ -11,8 +11,7 @@ import { element, listNotes, optionsOf, plural, sentence, showCounts, showFacts,
 import type { Facts, Fault, MeshAnswer } from "./protocol.js";
 
 /** More points than so many are not meshed anew while one of them is dragged. */
-const MOST_LIVE = 400;
-const MOST_LIVE_STEPS = 5000;
+const MOST_LIVE = { points: 400, graph: 1000, steps: 5000 };
 
 /** Progress is shown of work that takes longer, milliseconds. */
 const PATIENCE = 250;
@@ -79,8 +78,9 @@ function changed(live = false): void {
 /** Asks for a mesh. Work for an older input that nobody waits for is ended. */
 function want(live: boolean, anew = false): void {
   const points = history.current.points.length / 2;
-  const stepwise = history.current.segments.length === 0 && drawing.hasSession;
-  if (live && points > (stepwise ? MOST_LIVE_STEPS : MOST_LIVE)) {
+  const graph = history.current.segments.length > 0;
+  const stepwise = !graph && drawing.hasSession;
+  if (live && points > MOST_LIVE[stepwise ? "steps" : graph ? "graph" : "points"]) {
     return;
   }
   wanted = { live, anew };
