@@ -57,8 +57,6 @@ export async function drop(page, name, content) {
     },
     { name, bytes: [...content] },
   );
-  // The file is read before its mesh is asked for.
-  await page.waitForTimeout(100);
   await settled(page);
 }
 

@@ -221,7 +221,6 @@ test("the mesh follows a point that is dragged", async (context) => {
       await dropFixture(page, name);
     } else {
       await page.selectOption("#example", { label: "1,000 uniform points" });
-      await page.waitForTimeout(100);
       await settled(page);
     }
     const index = name?.startsWith("graphs") ? 3 : 17;
@@ -252,7 +251,6 @@ test("a hundred thousand triangles are drawn", async (context) => {
   const { page } = main;
   await page.selectOption("#method", "templates");
   await page.selectOption("#example", { label: "1,000 uniform points" });
-  await page.waitForTimeout(100);
   await settled(page);
   const { triangles } = await facts(page);
   assert.ok(triangles > 100_000, String(triangles));

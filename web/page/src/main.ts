@@ -27,6 +27,8 @@ let facts: Facts | undefined;
 let wanted: { live: boolean; anew: boolean } | undefined;
 let working: { live: boolean } | undefined;
 let clock: ReturnType<typeof setTimeout> | undefined;
+/** Files that are being opened. */
+let opening = 0;
 
 const drawing = new Drawing(element<HTMLCanvasElement>("canvas"), {
   doc: () => history.current,
@@ -57,7 +59,7 @@ declare global {
   };
 }
 globalThis.hexdelPage = {
-  idle: () => working === undefined && wanted === undefined && !client.busy,
+  idle: () => opening === 0 && working === undefined && wanted === undefined && !client.busy,
   document: () => history.current,
   facts: () => facts,
   drawing,
@@ -247,6 +249,7 @@ function open(doc: d.Document, called: string, warnings: readonly string[] = [])
 }
 
 async function openFile(file: File): Promise<void> {
+  opening += 1;
   try {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const { doc, warnings } = await client.ask({ kind: "read", bytes, name: file.name });
@@ -254,6 +257,8 @@ async function openFile(file: File): Promise<void> {
     open(doc, stem(file.name), warnings);
   } catch (error) {
     refused(error);
+  } finally {
+    opening -= 1;
   }
 }
 
@@ -262,12 +267,19 @@ async function openExample(index: number): Promise<void> {
   if (!example) {
     return;
   }
-  if ("kind" in example) {
-    open(await client.ask({ kind: "generate", of: example.kind, count: example.count }), example.kind);
-    return;
+  opening += 1;
+  try {
+    if ("kind" in example) {
+      open(await client.ask({ kind: "generate", of: example.kind, count: example.count }), example.kind);
+    } else {
+      const response = await fetch(new URL(`examples/${example.file}`, import.meta.url));
+      await openFile(new File([await response.arrayBuffer()], example.file));
+    }
+  } catch (error) {
+    refused(error);
+  } finally {
+    opening -= 1;
   }
-  const response = await fetch(new URL(`examples/${example.file}`, import.meta.url));
-  await openFile(new File([await response.arrayBuffer()], example.file));
 }
 
 async function save(): Promise<void> {
@@ -320,6 +332,7 @@ async function copyLink(): Promise<void> {
   }
 }
 
+/** Opens what the address holds. Whether it holds anything, be it damaged. */
 async function openLink(): Promise<boolean> {
   try {
     const held = await fromFragment(location.hash);
@@ -332,7 +345,7 @@ async function openLink(): Promise<boolean> {
     return true;
   } catch {
     showFault({ kind: "link", message: "the link is damaged", item: undefined, index: [], location: undefined, least: undefined });
-    return false;
+    return true;
   }
 }
 
