@@ -20,7 +20,7 @@ function assertNative(made, name, ...options) {
 }
 
 test("files are those of the program, byte for byte", () => {
-  for (const name of ["points/five.node", "points/capitals.node", "tables/id_east_north.csv"]) {
+  for (const name of ["points/five.node", "points/capitals.node", "tables/id_east_north.csv", "formats/survey.xyz"]) {
     assertNative(mesh(read(fixture(name), name)), name);
   }
   for (const name of ["graphs/letters.poly", "graphs/regions.poly", "polygons/lake_river.geojson"]) {

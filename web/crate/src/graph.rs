@@ -13,8 +13,18 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct RawGraph {
     pub(crate) pslg: Pslg,
+    /// Which attribute of the points is their height, if one is.
+    pub(crate) height: Option<usize>,
     warnings: Vec<String>,
     columns: Option<String>,
+}
+
+impl RawGraph {
+    /// The heights of vertices, which are among their attributes, if the points have heights.
+    pub(crate) fn heights(&self, of_vertices: &[f64]) -> Option<Vec<f64>> {
+        let column = of_vertices.iter().skip(self.height?).step_by(self.pslg.attributes_per_point.max(1));
+        Some(column.copied().collect())
+    }
 }
 
 #[wasm_bindgen]
@@ -44,7 +54,7 @@ impl RawGraph {
             segment_markers: segment_markers.to_vec(),
             ..Pslg::default()
         };
-        Ok(Self { pslg, warnings: Vec::new(), columns: None })
+        Ok(Self { pslg, height: None, warnings: Vec::new(), columns: None })
     }
 
     /// The graph in a file, by the name of its format; `name` is what errors call it.
@@ -57,6 +67,7 @@ impl RawGraph {
         let file = read.map_err(|error| errors::of_reading(&error))?;
         Ok(Self {
             pslg: file.pslg,
+            height: file.height_attribute,
             warnings: file.warnings.iter().map(ToString::to_string).collect(),
             columns: file.columns.map(|columns| columns.to_string()),
         })
@@ -68,7 +79,7 @@ impl RawGraph {
         let prepared = mesher.prepared_pslg(&self.pslg).map_err(|error| errors::of_mesh(&error))?;
         let mut warnings = self.warnings.clone();
         warnings.extend(prepared.warnings.iter().map(ToString::to_string));
-        Ok(Self { pslg: prepared.graph, warnings, columns: self.columns.clone() })
+        Ok(Self { pslg: prepared.graph, height: None, warnings, columns: self.columns.clone() })
     }
 
     /// The graph as a file in a format.

@@ -28,6 +28,7 @@ pub struct RawMesh {
     /// Edges on segments and the boundary, of graphs.
     edges: Vec<MarkedEdge>,
     regions: Vec<f64>,
+    heights: Option<Vec<f64>>,
 }
 
 /// How a mesh came to be.
@@ -48,11 +49,19 @@ pub fn mesh(graph: &RawGraph, options: &str, progress: Option<Function>) -> Resu
     let watch = Watch::new(progress);
     if of_graph {
         let made = mesher.triangulate_pslg_watched(&graph.pslg, &watch);
-        return made.map(RawMesh::of_graph).map_err(|error| errors::of_mesh(&error));
+        let made = made.map_err(|error| errors::of_mesh(&error))?;
+        let heights = graph.height.and_then(|_| graph.heights(&made.vertex_attributes(&graph.pslg)));
+        return Ok(RawMesh { heights, ..RawMesh::of_graph(made) });
     }
     let points = &graph.pslg.points;
     let made = mesher.triangulate_watched(points, &watch).map_err(|error| errors::of_mesh(&error))?;
-    Ok(RawMesh::of_points(made, points.clone(), mesher))
+    let heights = if graph.height.is_some() {
+        let attributes = made.vertex_attributes(&graph.pslg).map_err(|error| errors::of_mesh(&error))?;
+        graph.heights(&attributes)
+    } else {
+        None
+    };
+    Ok(RawMesh { heights, ..RawMesh::of_points(made, points.clone(), mesher) })
 }
 
 impl RawMesh {
@@ -62,6 +71,7 @@ impl RawMesh {
             vertex_of_input: made.vertex_of_input.iter().copied().map(Some).collect(),
             edges: Vec::new(),
             regions: Vec::new(),
+            heights: None,
             made: Made::Points(Box::new(made), points, Box::new(mesher)),
         }
     }
@@ -72,6 +82,7 @@ impl RawMesh {
             vertex_of_input: made.vertex_of_input(),
             edges: made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect(),
             regions: if made.graph.regions.is_empty() { Vec::new() } else { made.region_attributes() },
+            heights: None,
             made: Made::Graph(Box::new(made)),
         }
     }
@@ -89,6 +100,7 @@ impl RawMesh {
             vertex_of_input: vertices,
             edges: made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect(),
             regions,
+            heights: None,
             made: Made::Session(Box::new(made), Box::new(check)),
         }
     }
@@ -157,6 +169,9 @@ impl RawMesh {
         }
         if !self.regions.is_empty() {
             view = view.with_regions(&self.regions);
+        }
+        if let Some(heights) = &self.heights {
+            view = view.with_heights(heights);
         }
         if let Some(promised) = promised {
             view = view.with_promised(promised);
