@@ -179,7 +179,7 @@ impl PointReader {
             Ok(heights) => heights,
             // Who asks for a graph alone does not ask for heights.
             Err(_) if self.strict => None,
-            Err(fault) => mends.forgive("heights are left", || fault).map(|()| None)?,
+            Err(fault) => mends.forgive("heights are ignored", || fault).map(|()| None)?,
         };
         let degrees = features.degrees();
         let file = PointFile::with_heights(features.pslg, heights);

@@ -199,7 +199,7 @@ fn meshes_have_the_heights_of_points() {
     let run = bench.run("mesh c.csv -o c.json");
     assert_eq!(
         (run.code, run.err.as_str()),
-        (0, "warning: c.csv: 2 heights instead of 3; heights are left\n")
+        (0, "warning: c.csv: 2 heights instead of 3; heights are ignored\n")
     );
     bench.run("mesh c.csv -o c.json --columns x,y,z").refused("c.csv:3: expected a height, found \"\"");
 }
