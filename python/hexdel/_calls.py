@@ -216,7 +216,7 @@ def mesh_pslg(
     )
     graph = _graph(places, segments, holes, regions, markers, point_markers)
     if raw["radius"] is not None:
-        raise OptionError("a radius is for points, not for graphs", kind="option", hint="pass domain='hexagon'")
+        raise OptionError("a radius is for points, not for PSLGs", kind="option", hint="pass domain='hexagon'")
     return _made(_hexdel.mesh_graph, graph, raw)
 
 

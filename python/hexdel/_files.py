@@ -1,4 +1,4 @@
-"""Files of meshes and graphs, by extension."""
+"""Files of meshes and PSLGs, by extension."""
 
 from __future__ import annotations
 
@@ -51,13 +51,13 @@ class Graph(Mapping[str, Any]):
 
 
 def read(path: str | os.PathLike[str], *, columns: str | None = None) -> Mesh | Graph:
-    """Reads a mesh, points or a graph, by the extension of the file.
+    """Reads a mesh, points or a PSLG, by the extension of the file.
 
     Parameters
     ----------
     path : path-like
         Meshes: ``.ele`` with ``.node``, ``.vtu``, ``.msh``, ``.obj``, ``.off``, ``.mesh``,
-        ``.2dm``, ``.14``, ``.json``, ``.ron``. Points and graphs: ``.node``, ``.poly``,
+        ``.2dm``, ``.14``, ``.json``, ``.ron``. Points and PSLGs: ``.node``, ``.poly``,
         ``.csv``, ``.tsv``, ``.xyz``, ``.txt``, ``.pts``, ``.geojson``, ``.geojsonl``,
         ``.geojsons``, ``.ndjson``, ``.wkt``, ``.json``, ``.ron``.
     columns : str, optional
@@ -120,7 +120,7 @@ def _inverse(inputs: Any) -> Any:
 
 
 def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False) -> None:
-    """Writes a mesh, or points or a graph, by the extension of the file.
+    """Writes a mesh, or points or a PSLG, by the extension of the file.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False
         ``.geojson``, ``.wkt``, ``.json``, ``.ron``, and pictures: ``.svg``, ``.png``.
         Graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``, ``.xyz``, ``.json``, ``.ron``.
     what : Mesh, Graph, mapping or array_like
-        A graph is a mapping of arguments of `mesh_pslg`, points are an array of shape (n, 2).
+        A PSLG is a mapping of arguments of `mesh_pslg`, points are an array of shape (n, 2).
     second_order : bool, optional
         Whether ``.ele`` gets nodes on the middles of edges.
 
@@ -153,7 +153,7 @@ def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False
         given = dict(what) if isinstance(what, Mapping) else {"points": what}
         unknown = set(given) - set(Graph._KEYS)
         if unknown:
-            raise OptionError(f"a graph has no {', '.join(map(repr, sorted(unknown)))}", kind="option")
+            raise OptionError(f"a PSLG has no {', '.join(map(repr, sorted(unknown)))}", kind="option")
         places = _arrays.points(given.pop("points", None))
         lost = _hexdel.write_graph(path, _calls._graph(places, **given))
     if lost:

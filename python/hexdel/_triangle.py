@@ -22,7 +22,7 @@ WITHOUT_EFFECT = "DzCiFlsXVQjvgJ"
 REFUSED = {
     "Y": "segments must be divided for the angles to keep their bounds",
     "S": "the number of vertices follows from the angles",
-    "r": "meshes are not refined: mesh the points or the graph anew",
+    "r": "meshes are not refined: mesh the points or the PSLG anew",
     "u": "pass a callable size to hexdel.mesh_pslg instead",
     "I": "there are no files here",
     "N": "vertices are always returned",

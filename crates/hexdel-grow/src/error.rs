@@ -46,7 +46,7 @@ pub enum GrowError {
         segment: usize,
     },
     /// Nothing is left after holes and the outside have been taken away.
-    #[error("no part of the plane is enclosed by segments and no hole")]
+    #[error("the segments enclose nothing but holes")]
     NothingEnclosed,
     /// The deadline passed.
     #[error("time was up before the mesh had grown")]
