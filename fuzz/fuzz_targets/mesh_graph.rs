@@ -5,7 +5,7 @@ use hexdel::pslg::PslgError;
 use hexdel_fuzz::{Bytes, check_graph};
 use libfuzzer_sys::fuzz_target;
 
-// Graphs, repaired or not, in every domain: a mesh that certifies, with all that fails
+// PSLGs, repaired or not, in every domain: a mesh that certifies, with all that fails
 // listed, or an error about the input.
 fuzz_target!(|bytes: &[u8]| {
     let mut bytes = Bytes(bytes);

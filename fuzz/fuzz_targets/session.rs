@@ -4,7 +4,7 @@ use hexdel::{Error, Mesher, PointId, Session, SessionError};
 use hexdel_fuzz::{Bytes, check_session};
 use libfuzzer_sys::fuzz_target;
 
-// Points come to and go from a session of points or of a graph; every state holds, and
+// Points come to and go from a session of points or of a PSLG; every state holds, and
 // what is refused changes nothing.
 fuzz_target!(|bytes: &[u8]| {
     let mut bytes = Bytes(bytes);

@@ -48,7 +48,7 @@ impl Bytes<'_> {
         (0..count).map(|_| self.place()).collect()
     }
 
-    /// A graph with holes and regions; nothing says that it is planar.
+    /// A PSLG with holes and regions; nothing says that it is planar.
     pub fn graph(&mut self) -> Pslg {
         let mut graph = Pslg::from_points(self.points(9));
         let n = graph.points.len() as u8;
@@ -65,7 +65,7 @@ impl Bytes<'_> {
         graph
     }
 
-    /// A mesher of graphs.
+    /// A mesher of PSLGs.
     pub fn mesher(&mut self) -> Mesher {
         let mut mesher = Mesher::new().threads(1);
         let domains = [Domain::Inside, Domain::Hull, Domain::Box, Domain::Hexagon];
@@ -80,7 +80,7 @@ impl Bytes<'_> {
     }
 }
 
-/// What the mesh of a graph keeps whatever the graph is like.
+/// What the mesh of a PSLG keeps whatever the PSLG is like.
 ///
 /// # Panics
 ///

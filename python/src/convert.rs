@@ -56,7 +56,7 @@ pub(crate) fn sound_mesh_in(
     }
 }
 
-/// A graph as Python's side hands it over, every array there.
+/// A PSLG as Python's side hands it over, every array there.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct GraphArrays<'py> {

@@ -102,7 +102,7 @@ pub(crate) fn bad_length(py: Python<'_>, at: DVec2, length: f64) -> PyErr {
     Fault::new("callable").at(at).raise(py, &message, None)
 }
 
-/// Why points or a graph were not meshed.
+/// Why points or a PSLG were not meshed.
 pub(crate) fn of_mesh(py: Python<'_>, error: &Error) -> PyErr {
     let mesh = match error {
         Error::Unreached { mesh, .. } | Error::NotCertified { mesh, .. } => Some(&**mesh),

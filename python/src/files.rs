@@ -17,7 +17,7 @@ fn aside<T: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> T + Send + 's
     run(py, None, &Watch::default(), None, work)
 }
 
-/// Whether the extension of a file is that of meshes that are read, of graphs that are
+/// Whether the extension of a file is that of meshes that are read, of PSLGs that are
 /// read. `.poly`, `.json`, `.ron`, `.2dm` and `.14` may be either.
 #[pyfunction]
 pub(crate) fn formats(path: PathBuf) -> (bool, bool) {
@@ -55,7 +55,7 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
     Ok(dict)
 }
 
-/// Reads points or a graph: its arrays, with holes and regions in place of polygons.
+/// Reads points or a PSLG: its arrays, with holes and regions in place of polygons.
 /// Columns of tables go by name or number.
 #[pyfunction]
 pub(crate) fn read_graph(
@@ -84,7 +84,7 @@ pub(crate) fn read_graph(
     Ok(dict)
 }
 
-/// The graph in a text of a format, by the format's name.
+/// The PSLG in a text of a format, by the format's name.
 pub(crate) fn parsed(py: Python<'_>, text: &str, format: &str, name: &str) -> PyResult<Pslg> {
     let format = PointFormat::from_name(format)
         .ok_or_else(|| errors::plain(py, "file", &format!("there is no format {format:?}")))?;
@@ -162,7 +162,7 @@ pub(crate) fn write_mesh(
     written.map_err(|error| errors::of_writing(py, &error))
 }
 
-/// Writes points or a graph in the format of the file's extension. What the format has
+/// Writes points or a PSLG in the format of the file's extension. What the format has
 /// no place for, in words.
 #[pyfunction]
 pub(crate) fn write_graph(

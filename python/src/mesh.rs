@@ -1,4 +1,4 @@
-//! Meshes of points and of graphs.
+//! Meshes of points and of PSLGs.
 
 use crate::convert::{GraphArrays, indices_out, points_in, points_out, rows_out, triangles_out};
 use crate::errors;
@@ -62,7 +62,7 @@ fn made_of_points(py: Python<'_>, made: Triangulation) -> PyResult<Bound<'_, PyD
     Ok(dict)
 }
 
-/// Meshes a graph. The arrays of the mesh, and what is known about it.
+/// Meshes a PSLG. The arrays of the mesh, and what is known about it.
 #[pyfunction]
 pub(crate) fn mesh_graph<'py>(
     py: Python<'py>,
@@ -72,7 +72,7 @@ pub(crate) fn mesh_graph<'py>(
     mesh_of_graph(py, graph.graph()?, &options)
 }
 
-/// Meshes the graph in a text of a format, by the format's name: what arrays have no
+/// Meshes the PSLG in a text of a format, by the format's name: what arrays have no
 /// place for stays.
 #[pyfunction]
 pub(crate) fn mesh_text<'py>(

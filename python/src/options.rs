@@ -33,7 +33,7 @@ pub(crate) struct Options<'py> {
     budget: Option<f64>,
     domain: Option<String>,
     radius: Option<f64>,
-    /// A tolerance, or a negative number for one in proportion to the graph.
+    /// A tolerance, or a negative number for one in proportion to the PSLG.
     repair: Option<f64>,
     segment_method: Option<String>,
     overlaps: Option<String>,

@@ -23,7 +23,7 @@ pub(crate) struct RawSession {
 
 #[pymethods]
 impl RawSession {
-    /// The mesh of points or a graph as a session.
+    /// The mesh of points or a PSLG as a session.
     #[staticmethod]
     fn of_graph(py: Python<'_>, graph: GraphArrays<'_>, options: Options<'_>) -> PyResult<Self> {
         let graph = graph.graph()?;
@@ -122,7 +122,7 @@ impl RawSession {
         self.change(py, AnySession::undo)
     }
 
-    /// What of a graph has no effect or was mended, in words.
+    /// What of a PSLG has no effect or was mended, in words.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         self.ask(py, |session| session.warnings().iter().map(ToString::to_string).collect())
     }

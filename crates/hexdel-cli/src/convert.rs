@@ -138,7 +138,7 @@ impl Args {
                     Ok(Content::Points(self.reader().read_from(&bytes[..], points, &name)?.pslg))
                 }
             }
-            // A graph in .poly is no mesh, though the mesh formats have one.
+            // A PSLG in .poly is no mesh, though the mesh formats have one.
             (Some(mesh), points) if to_mesh && (mesh.is_read() || points.is_none()) => self.mesh(mesh),
             (_, Some(points)) => self.points(points),
             (Some(mesh), None) => self.mesh(mesh),

@@ -16,7 +16,7 @@ mod python;
 /// What is installed. A new version must not break an old commit.
 const PACKAGES: [&str; 2] = ["triangle==20250106", "numpy<3"];
 
-/// Graphs and the switches that both mesh them with.
+/// PSLGs and the switches that both mesh them with.
 const CASES: [(&str, &str); 5] = [
     ("box_closed", "p"),
     ("letter_A", "pq30"),

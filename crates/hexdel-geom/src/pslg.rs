@@ -12,7 +12,7 @@ use thiserror::Error;
 /// A planar straight-line graph.
 ///
 /// Point and segment indices are 0-based whatever the file they came from. A
-/// point set is a graph without segments, see [`Pslg::from_points`].
+/// point set is a PSLG without segments, see [`Pslg::from_points`].
 ///
 /// # Examples
 ///
@@ -120,7 +120,7 @@ pub enum PslgLayoutError {
 }
 
 impl Pslg {
-    /// A graph of points alone.
+    /// A PSLG of points alone.
     pub fn from_points(points: Vec<DVec2>) -> Self {
         Self { points, ..Self::default() }
     }
@@ -135,7 +135,7 @@ impl Pslg {
     }
 
     /// Checks that the arrays fit together: every segment ends at points of the
-    /// graph, polygons have segments of the graph, marker arrays are empty or
+    /// PSLG, polygons have segments of the PSLG, marker arrays are empty or
     /// complete, attributes are complete.
     ///
     /// # Errors

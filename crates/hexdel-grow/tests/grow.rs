@@ -1,4 +1,4 @@
-//! What growth promises, on points and graphs.
+//! What growth promises, on points and PSLGs.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
@@ -35,7 +35,7 @@ fn grown(input: &Input<'_>, min_deg: f64) -> Grown {
     grow(input, &Options::new(min_deg), &Unwatched).unwrap()
 }
 
-/// Holds a mesh to its bounds, from scratch; of a graph the lower one only as far as `left` says.
+/// Holds a mesh to its bounds, from scratch; of a PSLG the lower one only as far as `left` says.
 #[track_caller]
 fn hold(grown: &Grown, input: &Input<'_>, min_deg: f64) {
     let bounds = AngleBounds::new(min_deg, 90.0).unwrap();

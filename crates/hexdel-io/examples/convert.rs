@@ -27,7 +27,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// A mesh if the file holds one, points or a graph otherwise.
+/// A mesh if the file holds one, points or a PSLG otherwise.
 fn convert(from: &Path, to: &Path) -> Result<(), Box<dyn Error>> {
     match read_mesh_data(from) {
         Ok(data) => {

@@ -220,7 +220,7 @@ pub enum ReadError {
         /// The length it has.
         found: u64,
     },
-    /// The arrays of a graph do not fit together.
+    /// The arrays of a PSLG do not fit together.
     #[error("{file}: {source}")]
     Layout {
         /// The file.

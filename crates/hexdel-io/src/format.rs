@@ -126,7 +126,7 @@ impl PointFormat {
         name_of(POINT_NAMES, self)
     }
 
-    /// What of a graph's points a file in this format is without. Segments, holes
+    /// What of a PSLG's points a file in this format is without. Segments, holes
     /// and regions are never lost: a format without them is refused.
     ///
     /// ```
@@ -163,7 +163,7 @@ pub enum MeshFormat {
     /// Triangle's `.neigh`: the neighbours of each triangle. Written only.
     Neigh,
     /// Triangle's `.poly` of the vertices and the marked edges. Written only, as
-    /// what is read from it is a graph.
+    /// what is read from it is a PSLG.
     Poly,
     /// VTK's XML format of unstructured grids, `.vtu`.
     Vtu,
@@ -182,10 +182,10 @@ pub enum MeshFormat {
     /// Rusty Object Notation of a [`TriMesh`](hexdel_geom::TriMesh), `.ron`.
     Ron,
     /// Triangles as polygons in `GeoJSON` (RFC 7946), `.geojson`. Written only, as what is read from
-    /// it is a graph.
+    /// it is a PSLG.
     GeoJson,
     /// Triangles as polygons in well-known text, `.wkt`. Written only, as what is read from it is a
-    /// graph.
+    /// PSLG.
     Wkt,
     /// The mesh format of SMS, `.2dm`.
     TwoDm,

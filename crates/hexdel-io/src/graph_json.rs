@@ -42,7 +42,7 @@ struct Kinds {
     r#type: Option<IgnoredAny>,
 }
 
-/// Reads a graph of our own, `GeoJSON` or an instance of CG:SHOP, whatever it is.
+/// Reads a PSLG of our own, `GeoJSON` or an instance of CG:SHOP, whatever it is.
 pub(crate) fn read_any_json(source: &Source<'_>) -> Result<Features, ReadError> {
     let kinds: Kinds = first(source)?;
     if kinds.points_x.is_some() {
@@ -78,7 +78,7 @@ pub(crate) struct GraphDocument {
 }
 
 impl GraphDocument {
-    /// The graph, if its arrays fit together and its positions are finite.
+    /// The PSLG, if its arrays fit together and its positions are finite.
     pub(crate) fn graph(self, file: &str) -> Result<Pslg, ReadError> {
         let pslg = Pslg {
             points: self.points,
@@ -95,7 +95,7 @@ impl GraphDocument {
     }
 }
 
-/// A graph whose arrays fit together and whose positions are finite.
+/// A PSLG whose arrays fit together and whose positions are finite.
 fn check_graph(pslg: Pslg, file: &str) -> Result<Pslg, ReadError> {
     let mut faults = Faults::default();
     let first = pslg.layout_errors().next().map(|error| discriminant(&error));
@@ -208,7 +208,7 @@ fn label(text: &mut TextWriter<'_>, attribute: f64, max_area: Option<f64>) {
     text.text("}");
 }
 
-/// Writes a graph, an item per line.
+/// Writes a PSLG, an item per line.
 pub(crate) fn write_graph(out: &mut dyn Write, pslg: &Pslg) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     text.text("{\"points\": [");

@@ -10,12 +10,12 @@ use crate::graph_json::GraphDocument;
 use crate::json::Source;
 use crate::mesh_ron::{parse_ron, to_ron};
 
-/// Reads a graph.
+/// Reads a PSLG.
 pub(crate) fn read_graph_ron(source: &Source<'_>) -> Result<Pslg, ReadError> {
     parse_ron::<GraphDocument>(source)?.graph(source.file)
 }
 
-/// Writes a graph.
+/// Writes a PSLG.
 pub(crate) fn write_graph_ron(out: &mut dyn Write, pslg: &Pslg) -> io::Result<()> {
     to_ron(out, pslg)
 }

@@ -4,7 +4,7 @@
 //! planar straight-line graphs and triangle meshes, and nothing of how meshes are
 //! made.
 //!
-//! | points and graphs | | read | written |
+//! | points and PSLGs | | read | written |
 //! |---|---|---|---|
 //! | `.node` | Triangle's points | yes | yes |
 //! | `.poly` | Triangle's planar straight-line graph | yes | yes |

@@ -1,4 +1,4 @@
-//! Reading points and graphs: which reader for which format, and what is told of the
+//! Reading points and PSLGs: which reader for which format, and what is told of the
 //! file beside what it holds.
 
 use std::io::BufRead;
@@ -61,7 +61,7 @@ impl PointFile {
     }
 }
 
-/// Reads points and graphs, told which columns to take.
+/// Reads points and PSLGs, told which columns to take.
 ///
 /// Unlike [`read_points`], it reads files that depart from their format in a way that
 /// leaves no doubt, and tells of it: fields of Triangle's files that are separated by
@@ -177,7 +177,7 @@ impl PointReader {
         let mut mends = Mends::new(false);
         let heights = match features.heights(name) {
             Ok(heights) => heights,
-            // Who asks for a graph alone does not ask for heights.
+            // Who asks for a PSLG alone does not ask for heights.
             Err(_) if self.strict => None,
             Err(fault) => mends.forgive("heights are ignored", || fault).map(|()| None)?,
         };

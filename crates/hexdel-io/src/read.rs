@@ -89,7 +89,7 @@ pub fn read_mesh_from(reader: impl BufRead, format: MeshFormat, name: &str) -> R
 }
 
 /// Whether a text of JSON or RON is that of a mesh, with `triangles`, rather than of a
-/// graph. What it is like otherwise is left to the readers. Of other formats that are read, each
+/// PSLG. What it is like otherwise is left to the readers. Of other formats that are read, each
 /// text is that of a mesh.
 ///
 /// # Examples

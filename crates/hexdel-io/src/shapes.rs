@@ -9,7 +9,7 @@
 //! - The height of a point is the first that a geometry gives it.
 //! - Each polygon becomes a [`Polygon`] with the feature's number as attribute.
 //!
-//! Whether rings cross or polygons overlap is left to whoever meshes the graph.
+//! Whether rings cross or polygons overlap is left to whoever meshes the PSLG.
 
 use std::collections::HashMap;
 
@@ -193,7 +193,7 @@ impl GraphBuilder {
         Ok(())
     }
 
-    /// The graph, with its heights.
+    /// The PSLG, with its heights.
     pub(crate) fn finish(mut self) -> Features {
         if self.pslg.segments.is_empty() {
             self.pslg.segment_markers.clear();

@@ -68,7 +68,7 @@ pub struct MeshView<'a> {
     pub vertex_attributes: Option<(&'a [f64], usize)>,
     /// The number of the first vertex and triangle in Triangle's files: 0 or 1.
     pub first_number: u32,
-    /// Points in holes, and those of regions, of the graph that was meshed. Kept by `.poly`.
+    /// Points in holes, and those of regions, of the PSLG that was meshed. Kept by `.poly`.
     pub seeds: (&'a [DVec2], &'a [Region]),
     /// The number of the coordinate system in the register of EPSG. Kept by `.geojson` and `.nc`, of
     /// meshes and of duals.

@@ -159,7 +159,7 @@ fn formats_of_one_direction_say_so() {
     }
 }
 
-/// A graph with everything.
+/// A PSLG with everything.
 fn graph() -> Pslg {
     let at = |i: usize| DVec2::new(AWKWARD[i % 12], AWKWARD[(7 * i + 1) % 12]);
     Pslg {

@@ -137,7 +137,7 @@ pub(crate) fn search(work: &mut Work, (from, to): (usize, usize)) {
 
 /// Does `job` and, in a mesh with segments, takes it back if it leaves more
 /// triangles outside than it has found: a patch that does not settle may hand
-/// its fault to triangles that were good, and the start of a graph has few that
+/// its fault to triangles that were good, and the start of a PSLG has few that
 /// are not.
 fn without_loss(work: &mut Work, job: impl FnOnce(&mut Work)) {
     if !work.mesh.is_constrained() {

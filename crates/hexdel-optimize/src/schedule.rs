@@ -330,7 +330,7 @@ impl<'a> Run<'a> {
         let mut least = usize::MAX;
         for rings in RESCUE_RINGS {
             let bad = self.hopeful(false);
-            // Graphs with many bad spots, or some that stay as they are, are
+            // PSLGs with many bad spots, or some that stay as they are, are
             // better made anew with a finer start.
             let elsewhere = constrained && (bad.len() > FEW || bad.len() >= least);
             if elsewhere || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {

@@ -1,11 +1,11 @@
-//! Meshes small random graphs, planar ones and ones to be repaired, and checks
+//! Meshes small random PSLGs, planar ones and ones to be repaired, and checks
 //! that each gives a valid mesh with every segment in it, or an error.
 //!
 //! ```text
 //! cargo run --release -p hexdel-pslg --example dirty [COUNT] [FIRST] [SECONDS]
 //! ```
 //!
-//! With a budget of seconds for each graph more triangles are left out of bounds.
+//! With a budget of seconds for each PSLG more triangles are left out of bounds.
 
 #[path = "../tests/support/cpu.rs"]
 mod cpu;

@@ -1,4 +1,4 @@
-//! Meshes 500 members of each family of small graphs and prints how many keep
+//! Meshes 500 members of each family of small PSLGs and prints how many keep
 //! their bounds, by default 30 to 90 degrees near segments and 43.89 to 90
 //! elsewhere, and in how many all triangles two edges away from points and
 //! segments keep the latter, seen from outside.

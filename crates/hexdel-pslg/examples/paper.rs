@@ -1,4 +1,4 @@
-//! Meshes graphs by the paper's own method for segments and says what angles it
+//! Meshes PSLGs by the paper's own method for segments and says what angles it
 //! leaves.
 //!
 //! ```text
@@ -10,10 +10,10 @@
 //!
 //! Columns: triangles; smallest and largest angle; the same among triangles
 //! without a corner on a point or segment; triangles that do not keep 30 to 90
-//! degrees. With turns, the range of each column for a graph turned N times by the
+//! degrees. With turns, the range of each column for a PSLG turned N times by the
 //! N-th part of 60 degrees, as lines meet the lattice differently then. A sweep
-//! goes through all families of small graphs with so many seeds each, and ten
-//! times as many random graphs.
+//! goes through all families of small PSLGs with so many seeds each, and ten
+//! times as many random PSLGs.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -113,7 +113,7 @@ fn angles_away(made: &PslgMesh) -> [f64; 2] {
         .fold([180.0, 0.0], |[least, most], a| [a.min(least), a.max(most)])
 }
 
-/// What came out for many graphs.
+/// What came out for many PSLGs.
 struct Tally {
     meshes: usize,
     refused: usize,

@@ -1,4 +1,4 @@
-//! Says what is wrong with a graph, repairs it and meshes it:
+//! Says what is wrong with a PSLG, repairs it and meshes it:
 //! `cargo run --release -p hexdel-pslg --example validate [FILE.poly] [TOLERANCE]`. Without a file,
 //! a fence that crosses a field, drawn by hand.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "what an example writes is its result")]

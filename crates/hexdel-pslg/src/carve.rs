@@ -16,7 +16,7 @@ pub(crate) fn carve(net: &mut Net, holes: &[DVec2], outside: bool) {
     }
 }
 
-/// What of a graph lies in holes or outside.
+/// What of a PSLG lies in holes or outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Carved {

@@ -1,4 +1,4 @@
-//! Why a graph is no input, and why one could not be meshed.
+//! Why a PSLG is no input, and why one could not be meshed.
 
 use crate::geometry::nearest_places;
 use crate::validate::Validated;
@@ -6,7 +6,7 @@ use hexdel_geom::{AngleBounds, Cancelled, DVec2, PointsError, Pslg, PslgLayoutEr
 use hexdel_optimize::OptimizeError;
 use thiserror::Error;
 
-/// Why a graph is no planar straight-line graph.
+/// Why a PSLG is no planar straight-line graph.
 ///
 /// Points and segments are counted from 0, as given.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -102,7 +102,7 @@ pub enum ValidateError {
     },
 }
 
-/// Why a valid graph could not be meshed.
+/// Why a valid PSLG could not be meshed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PslgError {
@@ -150,7 +150,7 @@ pub enum PslgError {
         /// How far from the line that point is; 0 if all of them are on it.
         distance: f64,
     },
-    /// The graph has polygons, of which meshes know nothing.
+    /// The PSLG has polygons, of which meshes know nothing.
     #[error("polygons must be converted to holes and regions first, by `Validated::seeded`")]
     NotSeeded,
     /// Away from segments the method does not keep the bounds asked for.
@@ -233,7 +233,7 @@ impl PslgError {
     }
 }
 
-/// How far two parts of a graph are from each other, if they do not meet.
+/// How far two parts of a PSLG are from each other, if they do not meet.
 pub(crate) fn between(items: [Feature; 2], pslg: &Pslg) -> Option<f64> {
     let ends = |item| match item {
         Feature::Point(i) => Some([pslg.points[i]; 2]),
@@ -331,7 +331,7 @@ pub enum Feature {
     Segment(usize),
     /// An edge of the convex hull that is no segment.
     Hull,
-    /// A side or corner of the box around the graph.
+    /// A side or corner of the box around the PSLG.
     Box,
     /// A point that repair made where segments cross.
     Crossing,

@@ -58,13 +58,13 @@ pub struct StrayRing {
 }
 
 impl Validated {
-    /// The same graph with holes and regions in place of its polygons: a seed in each
+    /// The same PSLG with holes and regions in place of its polygons: a seed in each
     /// face, a region for the last polygon that covers it, or a hole. Its own holes and
     /// regions come first.
     ///
     /// Faces that no polygon covers are holes where polygons enclose them. Other such
     /// faces, which lines may enclose, are outside: holes only if `extent` is
-    /// [`Extent::Inside`]. A graph without polygons comes back as it is.
+    /// [`Extent::Inside`]. A PSLG without polygons comes back as it is.
     ///
     /// # Complexity
     ///

@@ -138,7 +138,7 @@ pub(crate) fn with_fans(
     scene
 }
 
-/// The points of a graph, by index, that may have a fan of triangles around them: those with
+/// The points of a PSLG, by index, that may have a fan of triangles around them: those with
 /// corners narrower than a mesh with these bounds near points and segments has room
 /// for. The vertices around them count as points.
 ///

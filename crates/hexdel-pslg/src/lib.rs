@@ -8,7 +8,7 @@
 //! mesh hold, 43.89 to 90 degrees. No angle is obtuse, so that segments are edges
 //! of the Delaunay triangulation of the vertices, not only of a constrained one.
 //!
-//! [`validate`] says whether a graph is planar, [`repair`] makes it so, [`mesh`]
+//! [`validate`] says whether a PSLG is planar, [`repair`] makes it so, [`mesh`]
 //! meshes it. Success of the optimiser is not proved: what does not keep its
 //! bounds is listed in [`PslgMesh::failed`]. Where segments meet at less than
 //! the lower bound, that one angle is exempt; below 7 degrees (with bounds above

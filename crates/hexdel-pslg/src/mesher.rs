@@ -1,4 +1,4 @@
-//! From a valid graph to its mesh: the order of things.
+//! From a valid PSLG to its mesh: the order of things.
 
 use crate::carve::{Carving, carve};
 use crate::compact::{Kept, compact};

@@ -1,4 +1,4 @@
-//! What to make of a graph.
+//! What to make of a PSLG.
 
 use hexdel_geom::{AngleBounds, Monitor, Phase};
 use hexdel_optimize::Effort;
@@ -32,7 +32,7 @@ pub enum SegmentMethod {
     Paper,
 }
 
-/// How a graph is meshed.
+/// How a PSLG is meshed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {

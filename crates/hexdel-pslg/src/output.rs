@@ -228,7 +228,7 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
         .collect()
 }
 
-/// A marker of each vertex of a mesh of a graph, as of
+/// A marker of each vertex of a mesh of a PSLG, as of
 /// [`PslgMesh::vertex_markers`], given the mesh's edges on segments and the
 /// boundary and for each vertex the point that it is.
 pub fn vertex_markers(pslg: &Pslg, edges: &[SegmentEdge], point_of_vertex: &[Option<u32>]) -> Vec<i32> {

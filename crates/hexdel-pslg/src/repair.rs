@@ -18,7 +18,7 @@ use rustc_hash::FxHashMap;
 /// coordinates; three or four are the rule.
 const ROUNDS: usize = 32;
 
-/// One thing that [`repair`] did. Points and segments are those of the graph
+/// One thing that [`repair`] did. Points and segments are those of the PSLG
 /// given, except where a point is new.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -72,9 +72,9 @@ pub enum Repair {
 pub struct RepairReport {
     /// Everything done, in order.
     pub repairs: Vec<Repair>,
-    /// For each point given, its index in the graph made.
+    /// For each point given, its index in the PSLG made.
     pub point_of_input: Vec<u32>,
-    /// For each segment of the graph made, those given that it is a part of.
+    /// For each segment of the PSLG made, those given that it is a part of.
     pub sources: Vec<Vec<u32>>,
     /// Whether nothing is left to repair.
     pub complete: bool,

@@ -5,7 +5,7 @@ use hexdel_geom::{PointSet, Pslg};
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
-/// The graph without segments that have no length or the ends of another, if there are any,
+/// The PSLG without segments that have no length or the ends of another, if there are any,
 /// and what became of which. Points at the same place count as one. Of several segments that
 /// are the same the first stays, with the first marker that is not 0.
 ///

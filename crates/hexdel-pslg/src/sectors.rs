@@ -73,7 +73,7 @@ pub fn hopeless_pairs(segments: &[[DVec2; 2]]) -> Vec<[usize; 2]> {
     sectors.wedge_pairs().into_iter().map(|pair| pair.map(|p| p as usize)).collect()
 }
 
-/// A corner of a graph between two segments that meet at less than a bound.
+/// A corner of a PSLG between two segments that meet at less than a bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct NarrowCorner {
@@ -88,7 +88,7 @@ pub struct NarrowCorner {
     pub given_up: bool,
 }
 
-/// The corners of a graph narrower than `least_deg`, by point: where
+/// The corners of a PSLG narrower than `least_deg`, by point: where
 /// [`mesh`](crate::mesh) may go below that lower bound. Corners in holes, and outside of
 /// the extent, are none; those of the hull are some, if that is the extent.
 ///

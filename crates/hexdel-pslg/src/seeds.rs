@@ -78,7 +78,7 @@ impl Validated {
     ///
     /// # Complexity
     ///
-    /// Linear in the graph.
+    /// Linear in the PSLG.
     ///
     /// # Examples
     ///
@@ -112,14 +112,14 @@ impl Validated {
 }
 
 impl Validated {
-    /// The same graph with no effect of holes and regions outside of the extent. Where no segments
+    /// The same PSLG with no effect of holes and regions outside of the extent. Where no segments
     /// part them from it, as along the convex hull, they would be seeds of what is inside.
     ///
     /// Holes are dropped, regions keep their numbers and go beyond everything.
     ///
     /// # Complexity
     ///
-    /// Linear in the graph.
+    /// Linear in the PSLG.
     ///
     /// # Examples
     ///
@@ -163,7 +163,7 @@ impl Validated {
     ///
     /// # Complexity
     ///
-    /// Linear in the graph.
+    /// Linear in the PSLG.
     ///
     /// # Examples
     ///

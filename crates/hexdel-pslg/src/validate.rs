@@ -82,7 +82,7 @@ impl std::fmt::Debug for Validated {
 }
 
 impl Validated {
-    /// The graph, as given.
+    /// The PSLG, as given.
     pub fn pslg(&self) -> &Pslg {
         &self.pslg
     }
@@ -107,7 +107,7 @@ impl Validated {
     }
 }
 
-/// Checks that a graph is planar.
+/// Checks that a PSLG is planar.
 ///
 /// # Errors
 ///
@@ -125,7 +125,7 @@ pub fn validate(pslg: &Pslg) -> Result<Validated, ValidateError> {
     }
 }
 
-/// Everything that keeps a graph from being planar: what is wrong with the
+/// Everything that keeps a PSLG from being planar: what is wrong with the
 /// arrays or the points, or else with the segments, in their order.
 ///
 /// A segment found to be at fault is then left away, so that the crossings of

@@ -55,7 +55,7 @@ fn attributes_follow_faces() {
     assert!(overlapping > sets / 4 && meshed > sets / MESHED / 2);
 }
 
-/// Meshes a graph, if that takes no more triangles than it should here.
+/// Meshes a PSLG, if that takes no more triangles than it should here.
 fn meshes_as(seed: u64, seeded: &Validated, expected: &BTreeMap<u64, f64>) -> bool {
     let options = Options::new().extent(Extent::Inside).compact(None).retries(0).max_triangles(100_000);
     let made = match mesh(seeded, &options, &Unwatched) {
@@ -193,7 +193,7 @@ fn star(random: &mut Random, place: impl Fn(&mut Random) -> [f64; 2], n: u64) ->
     ring
 }
 
-/// The graph of polygons, with points and segments once each, and some lines.
+/// The PSLG of polygons, with points and segments once each, and some lines.
 fn graph(polygons: &[(Rings, f64)], random: &mut Random) -> Pslg {
     let mut graph = Pslg::default();
     for (rings, attribute) in polygons {

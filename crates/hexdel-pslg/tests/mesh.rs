@@ -1,4 +1,4 @@
-//! Meshes of small graphs: bounds, extents, holes, regions, markers, errors.
+//! Meshes of small PSLGs: bounds, extents, holes, regions, markers, errors.
 
 mod support;
 

@@ -106,7 +106,7 @@ fn what_is_too_small_for_exact_arithmetic_is_named() {
         let points: Vec<(f64, f64)> = corners.iter().map(small).collect();
         let tiny = graph(&points, &[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]]);
         assert!(matches!(validate(&tiny), Err(ValidateError::TooSmall { .. })), "{scale}");
-        // Only a part of the graph: whatever is said, there is no panic.
+        // Only a part of the PSLG: whatever is said, there is no panic.
         let mut points = points;
         points.push((1.0, 2.0));
         let _ = validate(&graph(&points, &[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]]));

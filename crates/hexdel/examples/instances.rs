@@ -1,11 +1,11 @@
-//! Meshes every graph in a folder at three pairs of bounds and says what came of each.
+//! Meshes every PSLG in a folder at three pairs of bounds and says what came of each.
 //!
 //! ```sh
 //! cargo run --release -p hexdel --example instances -- FOLDER [SECONDS]
 //! ```
 //!
 //! Made for the instances of CG:SHOP 2025, whose coordinates are integers with many points
-//! in line; any format of graphs will do. With SECONDS, each mesh has that budget.
+//! in line; any format of PSLGs will do. With SECONDS, each mesh has that budget.
 
 use hexdel::{AngleBounds, Mesher};
 use std::error::Error;
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let (mut held, mut all) = (0, 0);
         for file in &files {
-            // Other files than graphs may lie there.
+            // Other files than PSLGs may lie there.
             let Ok(graph) = hexdel::io::read_points(file) else { continue };
             let name = file.file_name().unwrap_or_default().to_string_lossy();
             let start = Instant::now();

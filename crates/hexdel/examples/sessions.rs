@@ -32,7 +32,7 @@ fn points(n: usize, insertions: usize) -> Result<(), Box<dyn Error>> {
     remove(&mut session, n)
 }
 
-/// Points spread over the box around a graph.
+/// Points spread over the box around a PSLG.
 fn graph(file: &str, insertions: usize) -> Result<(), Box<dyn Error>> {
     let graph = hexdel::io::read_points(file)?;
     let began = (Instant::now(), cpu_ms());

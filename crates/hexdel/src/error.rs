@@ -1,4 +1,4 @@
-//! Why points or a graph could not be meshed.
+//! Why points or a PSLG could not be meshed.
 
 use crate::size::SizeError;
 use crate::workers::MAX_THREADS;
@@ -9,7 +9,7 @@ use hexdel_pslg::{PslgError, ValidateError};
 use hexdel_refine::RefineError;
 use thiserror::Error;
 
-/// Why points or a graph could not be meshed. Points and segments are counted
+/// Why points or a PSLG could not be meshed. Points and segments are counted
 /// from 0, as given.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -92,11 +92,11 @@ pub enum Error {
         /// The bounds asked for.
         asked: AngleBounds,
     },
-    /// The segments of a graph cross or overlap, or its arrays do not fit
+    /// The segments of a PSLG cross or overlap, or its arrays do not fit
     /// together.
     #[error(transparent)]
     Segments(ValidateError),
-    /// A graph could not be meshed.
+    /// A PSLG could not be meshed.
     #[error(transparent)]
     Pslg(PslgError),
     /// Two polygons overlap, which was to be an error.
@@ -120,14 +120,14 @@ pub enum Error {
         /// The tolerance asked for.
         tolerance: f64,
     },
-    /// An option that points have no use for; as a graph without segments they
+    /// An option that points have no use for; as a PSLG without segments they
     /// may.
     #[error("{option} applies to PSLGs, not to points")]
     NotForPoints {
         /// The option.
         option: &'static str,
     },
-    /// An option that graphs have no use for.
+    /// An option that PSLGs have no use for.
     #[error("{option} applies to points, not to PSLGs")]
     NotForGraphs {
         /// The option.

@@ -18,7 +18,7 @@
 //! # Ok::<(), hexdel::Error>(())
 //! ```
 //!
-//! [`triangulate_pslg`] meshes graphs of points and segments, with holes and
+//! [`triangulate_pslg`] meshes PSLGs of points and segments, with holes and
 //! regions, at 30 to 90 degrees along the segments.
 //!
 //! [`Mesher`] has the options. This crate holds no algorithm: the layers below

@@ -136,7 +136,7 @@ impl Mesher {
 
     /// The bounds that the mesh is held to, by default those the method keeps.
     /// They may be wider; narrower ones are for
-    /// [`Method::Compact`] only. Of graphs, the default is 30 to 90 degrees in
+    /// [`Method::Compact`] only. Of PSLGs, the default is 30 to 90 degrees in
     /// triangles at most one edge away from a point or segment, and 43.89 to 90
     /// elsewhere.
     ///
@@ -172,9 +172,9 @@ impl Mesher {
     }
 
     /// How long edges may be, by default as long as the points allow. Every edge
-    /// keeps to it at both ends and its middle. In the mesh of a graph those of segments
+    /// keeps to it at both ends and its middle. In the mesh of a PSLG those of segments
     /// do, too; triangles with longer edges, where the angles left no way, are listed in
-    /// [`failed`](crate::PslgTriangulation::failed). A region of a graph has a size of
+    /// [`failed`](crate::PslgTriangulation::failed). A region of a PSLG has a size of
     /// its own by its corners ([`Size::and_polygon`]).
     ///
     /// ```
@@ -225,7 +225,7 @@ impl Mesher {
     }
 
     /// Whether hexagons are merged again where all rules allow it (section
-    /// 5.3): up to 7 % fewer triangles. On by default; always, for graphs. Without it [`Method::Compact`]
+    /// 5.3): up to 7 % fewer triangles. On by default; always, for PSLGs. Without it [`Method::Compact`]
     /// begins with a mesh of the grid.
     ///
     /// ```
@@ -263,7 +263,7 @@ impl Mesher {
     /// The wall-clock time from the call on after which [`Method::Compact`] ends
     /// optimisation, by default as long as it takes; nothing to the other methods.
     /// However short, the mesh is valid; how compact it gets depends on the machine. The
-    /// mesh of a graph has every segment in it, but angles may be left out of
+    /// mesh of a PSLG has every segment in it, but angles may be left out of
     /// bounds that more time would mend.
     ///
     /// ```

@@ -93,7 +93,7 @@ where
     }
 }
 
-/// The graph of a constrained triangulation: its vertices as points, its constraints as
+/// The PSLG of a constrained triangulation: its vertices as points, its constraints as
 /// segments. What [`triangulate_pslg`](crate::triangulate_pslg) makes of it keeps both.
 ///
 /// # Complexity

@@ -16,7 +16,7 @@ fn refused(points: &[DVec2]) -> Error {
     templates
 }
 
-/// By points and by graphs, with any method.
+/// By points and by PSLGs, with any method.
 #[test]
 fn bounds_that_no_graded_mesh_keeps() {
     let points = [DVec2::ZERO, DVec2::X, DVec2::new(0.3, 0.8)];

@@ -1,4 +1,4 @@
-//! Edges of the meshes of graphs no longer than wanted, or listed, and sizes that
+//! Edges of the meshes of PSLGs no longer than wanted, or listed, and sizes that
 //! are refused.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
@@ -11,13 +11,13 @@ use hexdel::optimize::triangle_fits;
 use hexdel::pslg::{PslgError, Reason};
 use hexdel::{DVec2, Domain, Error, Mesher, Method, Pslg, PslgTriangulation, SegmentMethod, Size, SizeError};
 
-/// The corners of the rectangle around a graph.
+/// The corners of the rectangle around a PSLG.
 fn bounds(graph: &Pslg) -> [DVec2; 2] {
     let start = [DVec2::INFINITY, DVec2::NEG_INFINITY];
     graph.points.iter().fold(start, |[low, high], &p| [low.min(p), high.max(p)])
 }
 
-/// Sizes for a graph in a rectangle, each a part of its longer side.
+/// Sizes for a PSLG in a rectangle, each a part of its longer side.
 fn sizes([low, high]: [DVec2; 2]) -> Vec<(&'static str, Size)> {
     let (side, at) = ((high - low).max_element(), |x, y| low + (high - low) * DVec2::new(x, y));
     let values = vec![Some(0.05 * side), None, Some(0.2 * side), Some(0.1 * side)];

@@ -1,4 +1,4 @@
-//! Graphs of points and segments: domains, bounds, repair, what the result
+//! PSLGs of points and segments: domains, bounds, repair, what the result
 //! says, and errors that name what is at fault.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]

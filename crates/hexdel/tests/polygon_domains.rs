@@ -1,4 +1,4 @@
-//! Polygons in every domain, and warnings in the numbers of the graph given.
+//! Polygons in every domain, and warnings in the numbers of the PSLG given.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
@@ -58,7 +58,7 @@ fn polygons_are_meshed_in_every_domain() {
     }
 }
 
-/// A hole beside the graph takes the box away.
+/// A hole beside the PSLG takes the box away.
 #[test]
 fn a_hole_outside_leaves_nothing_of_the_box() {
     let mut graph = apart();
@@ -73,7 +73,7 @@ fn a_hole_outside_leaves_nothing_of_the_box() {
     }
 }
 
-/// Repair divides the first segment, so that those after it have other numbers in the graph that is meshed.
+/// Repair divides the first segment, so that those after it have other numbers in the PSLG that is meshed.
 #[test]
 fn unused_seeds_name_the_segments_given() {
     let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (2.0, 0.0), (2.0, 2.0)];
@@ -100,7 +100,7 @@ fn unused_seeds_name_the_segments_given() {
     }
 }
 
-/// The side of the box is no segment of the graph.
+/// The side of the box is no segment of the PSLG.
 #[test]
 fn a_seed_on_the_box_is_outside() {
     let mut graph = apart();

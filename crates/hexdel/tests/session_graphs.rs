@@ -1,4 +1,4 @@
-//! Sessions of graphs: segments stay, bounds hold by place, and what is refused.
+//! Sessions of PSLGs: segments stay, bounds hold by place, and what is refused.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
@@ -359,7 +359,7 @@ fn what_is_not_meshed_anew_is_refused_as_such() {
     }
 }
 
-/// What the mesh of a graph is warned of, its session is.
+/// What the mesh of a PSLG is warned of, its session is.
 #[test]
 fn sessions_have_the_warnings_and_repairs_of_the_mesh() {
     let mut graph = plate();

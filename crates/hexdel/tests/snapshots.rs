@@ -58,7 +58,7 @@ fn the_hash_is_fnv_1a() {
     assert_eq!(fnv_1a(*b"foobar"), 0x8594_4171_f739_67e8);
 }
 
-/// Every graph, with the default options.
+/// Every PSLG, with the default options.
 #[test]
 fn graphs() {
     let _bound = settings().bind_to_scope();

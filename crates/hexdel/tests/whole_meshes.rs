@@ -3,7 +3,7 @@
 //!
 //! Of templates and of the simple method there are all fixtures whose meshes are small, of
 //! compact meshes some of two to seven points, and of the paper's way with segments a few
-//! graphs. `cargo xtask regen` renews the records, `cargo xtask regen --check` holds them.
+//! PSLGs. `cargo xtask regen` renews the records, `cargo xtask regen --check` holds them.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
@@ -29,7 +29,7 @@ fn whole_simple() {
 
 type Place = (f64, f64);
 
-/// A graph by its name, points and segments, and what of it is meshed.
+/// A PSLG by its name, points and segments, and what of it is meshed.
 type Input<'a> = (&'a str, &'a [Place], &'a [[u32; 2]], Extent);
 
 /// Points by their coordinates.

@@ -1,4 +1,4 @@
-//! What a mesh must keep of a graph's segments.
+//! What a mesh must keep of a PSLG's segments.
 
 use super::{finding, points};
 use hexdel::geom::certificate::{PlaceCheck, Promise, Promises, Violation, check_promises, features};
@@ -9,7 +9,7 @@ use hexdel_io::{Promised, PromisedDomain};
 use serde::Serialize;
 use std::cmp::Ordering;
 
-/// What was found of a graph in a mesh.
+/// What was found of a PSLG in a mesh.
 #[derive(Serialize)]
 pub(super) struct OfGraph {
     /// Its segments, each one or, where points lie on it, several.
@@ -24,7 +24,7 @@ pub(super) struct OfGraph {
 }
 
 impl OfGraph {
-    /// Holds a mesh against a graph. Exempt triangles, and points in holes or
+    /// Holds a mesh against a PSLG. Exempt triangles, and points in holes or
     /// outside, are taken out of the certificate.
     pub(super) fn new(
         mesh: &TriMesh,
@@ -151,7 +151,7 @@ impl OfGraph {
     }
 }
 
-/// Where vertices need not be in use, as Triangle writes them: at points of the graph in holes
+/// Where vertices need not be in use, as Triangle writes them: at points of the PSLG in holes
 /// and outside, and where there is another one that is in use. In order.
 fn spare_places(mesh: &TriMesh, graph: &Pslg, domain: &Wanted) -> Vec<DVec2> {
     let carved = graph.points.iter().zip(&domain.carved_points).filter(|(_, carved)| **carved);
@@ -216,7 +216,7 @@ fn extent_by_area(mesh: &TriMesh, graph: &pslg::Validated) -> pslg::Extent {
     if covered <= inside * (1.0 + 1e-9) { pslg::Extent::Inside } else { pslg::Extent::Hexagon }
 }
 
-/// What a mesh must have of a graph.
+/// What a mesh must have of a PSLG.
 struct Wanted {
     /// The segments, divided where points lie on them.
     pieces: Vec<[u32; 2]>,
@@ -236,7 +236,7 @@ impl Wanted {
     fn of(mesh: &TriMesh, graph: &Pslg, promised: Option<&Promised>, least_deg: f64) -> Self {
         let valid = Some(graph).filter(|graph| !graph.segments.is_empty());
         let Some(Ok(valid)) = valid.map(pslg::validate) else {
-            // Points alone are vertices wherever they lie. Of other graphs the mesh may have been
+            // Points alone are vertices wherever they lie. Of other PSLGs the mesh may have been
             // made of what repair made of them; their segments are looked for as they are.
             return Self {
                 pieces: graph.segments.clone(),

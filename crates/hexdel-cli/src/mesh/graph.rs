@@ -1,4 +1,4 @@
-//! Graphs of points and segments, and points in other domains than a hexagon.
+//! PSLGs of points and segments, and points in other domains than a hexagon.
 
 use super::{Args, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, write};
 use crate::exit::{Failure, Outcome, Verdict, warn};
@@ -16,7 +16,7 @@ use std::fmt::{Display, Write as _};
 /// Items of a list that are shown; the report has all.
 const SHOWN: usize = 10;
 
-/// Meshes a graph, writes the mesh and says what it is like.
+/// Meshes a PSLG, writes the mesh and says what it is like.
 pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome {
     let mesher = mesher(args)?;
     if args.grid {
@@ -45,7 +45,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome 
     finished.write(outputs)
 }
 
-/// A mesh of a graph to be written.
+/// A mesh of a PSLG to be written.
 #[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 pub(crate) struct Finished<'a> {
     pub(crate) made: &'a PslgTriangulation,
@@ -248,7 +248,7 @@ fn mesher(args: &Args) -> Result<Mesher, Failure> {
 /// Faults of a kind that are told one by one.
 const TOLD: usize = 5;
 
-/// Why a graph was not meshed. Of segments at fault, all of a kind are told of.
+/// Why a PSLG was not meshed. Of segments at fault, all of a kind are told of.
 pub(crate) fn failure(file: &str, source: hexdel::Error, input: &Pslg) -> Failure {
     let mut more = String::new();
     if let hexdel::Error::Segments(first) = &source {
@@ -266,13 +266,13 @@ pub(crate) fn failure(file: &str, source: hexdel::Error, input: &Pslg) -> Failur
     Failure::Mesh { file: file.to_owned(), source: Box::new(source), more }
 }
 
-/// Warns of what was done to a graph without being asked for.
+/// Warns of what was done to a PSLG without being asked for.
 pub(crate) fn warn_of_repairs(repairs: Option<&RepairReport>, file: &str) {
     let repairs = repairs.map_or(&[][..], |report| &report.repairs);
     warn_of_each(repairs.iter().map(|repair| format!("{file}: {}", RepairEntry::new(repair))), file, "");
 }
 
-/// Warns of what is not used of a graph, or could have been meant otherwise, with its place in
+/// Warns of what is not used of a PSLG, or could have been meant otherwise, with its place in
 /// the file, and where more is to be found.
 pub(crate) fn warn_of_warnings(
     warnings: &[Warning],
@@ -293,7 +293,7 @@ fn warn_of_each(all: impl Iterator<Item = String>, file: &str, elsewhere: &str) 
     }
 }
 
-/// What a mesh of a graph is to keep.
+/// What a mesh of a PSLG is to keep.
 fn promises(made: &PslgTriangulation) -> String {
     let c = &made.certificate;
     let exempt = if made.exempt.is_empty() { "" } else { " but for exempt corners" };

@@ -1,4 +1,4 @@
-//! `hexdel mesh`: points or a graph in, a certified mesh out.
+//! `hexdel mesh`: points or a PSLG in, a certified mesh out.
 
 mod graph;
 mod points;
@@ -266,7 +266,7 @@ impl Args {
         Ok(Some(size).filter(|size| *size != none))
     }
 
-    /// The options that points and graphs share.
+    /// The options that points and PSLGs share.
     fn mesher(&self) -> Mesher {
         let method = self.method();
         let mut mesher =

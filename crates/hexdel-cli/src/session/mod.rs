@@ -88,7 +88,7 @@ impl Args {
         mesher
     }
 
-    /// An option that is given, if any is, that only sessions of points and graphs have.
+    /// An option that is given, if any is, that only sessions of points and PSLGs have.
     fn option(&self) -> Option<&'static str> {
         let given = [
             ("--effort", self.effort.is_some()),
@@ -269,7 +269,7 @@ fn with_file(mut answer: Value, file: &PointFile, more: Vec<String>) -> Value {
     answer
 }
 
-/// What was to be said of a graph, with the file and the line if it is known.
+/// What was to be said of a PSLG, with the file and the line if it is known.
 fn told(session: &AnySession, name: &str, file: &PointFile) -> Vec<String> {
     session.warnings().iter().map(|warning| format!("{}: {warning}", place(warning, name, file))).collect()
 }

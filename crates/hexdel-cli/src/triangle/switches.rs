@@ -6,7 +6,7 @@ use crate::exit::Failure;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch")]
 pub(super) struct Switches {
-    /// `-p`: the input is a graph, not only points.
+    /// `-p`: the input is a PSLG, not only points.
     pub(super) graph: bool,
     /// `-q`, with the smallest angle if one is given.
     pub(super) min_angle: Option<f64>,

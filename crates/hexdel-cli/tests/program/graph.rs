@@ -1,4 +1,4 @@
-//! `hexdel mesh` and `hexdel check` of graphs.
+//! `hexdel mesh` and `hexdel check` of PSLGs.
 
 use crate::support::{Bench, fixture};
 

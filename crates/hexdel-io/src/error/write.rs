@@ -105,7 +105,7 @@ pub enum WriteError {
         /// How many vertices or classes there are.
         count: usize,
     },
-    /// The arrays of the graph do not fit together.
+    /// The arrays of the PSLG do not fit together.
     #[error("{file}: {source}")]
     Layout {
         /// The file.

@@ -334,7 +334,7 @@ impl LiveMesh {
     }
 
     /// The bounds that every angle keeps, of triangles near segments and points
-    /// of a graph and of all others.
+    /// of a PSLG and of all others.
     pub fn bounds(&self) -> [AngleBounds; 2] {
         [self.bounds.near, self.bounds.far]
     }

@@ -43,7 +43,7 @@ impl LiveMesh {
     ///
     /// # Errors
     ///
-    /// [`LiveError::NoRoom`] where the bounds around a point of a graph cannot be
+    /// [`LiveError::NoRoom`] where the bounds around a point of a PSLG cannot be
     /// made those of places without one; the mesh is then as it was.
     ///
     /// # Panics

@@ -43,7 +43,7 @@ const CANDIDATES: usize = 12;
 const BRANCHES: usize = 4;
 
 /// Searches of depth two that may be in vain: each takes some tens of milliseconds,
-/// and graphs that come out take less than ten.
+/// and PSLGs that come out take less than ten.
 const VAIN: usize = 16;
 
 /// Bad triangles in a patch from which on no search of depth two is tried: of 82

@@ -49,7 +49,7 @@ use hexdel_optimize::Sizing;
 use hexdel_refine::{Refiner, RuleSet};
 use rules::{Passed, Scene};
 
-/// Meshes a graph by the paper's method.
+/// Meshes a PSLG by the paper's method.
 ///
 /// # Errors
 ///

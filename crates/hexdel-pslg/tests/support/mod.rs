@@ -1,4 +1,4 @@
-//! Families of small graphs, by name and seed, for tests and examples.
+//! Families of small PSLGs, by name and seed, for tests and examples.
 
 #![allow(dead_code, reason = "each of them uses a part")]
 #![allow(unreachable_pub, reason = "it is a module of several programs")]
@@ -296,7 +296,7 @@ pub fn coastline(least: usize, seed: u64) -> Pslg {
     chain(&points, true)
 }
 
-/// A small random graph: sometimes on a coarse grid, so that points coincide
+/// A small random PSLG: sometimes on a coarse grid, so that points coincide
 /// and segments overlap, touch and cross.
 pub fn random_graph(seed: u64) -> Pslg {
     let mut random = Random::new(seed ^ 0xabcd_ef01);
@@ -349,7 +349,7 @@ pub fn far_triangles(made: &hexdel_pslg::PslgMesh) -> (u32, u32) {
     })
 }
 
-/// Whether a mesh is valid and has all points and segments of a graph in it,
+/// Whether a mesh is valid and has all points and segments of a PSLG in it,
 /// if nothing was carved away.
 pub fn check(pslg: &Pslg, made: &hexdel_pslg::PslgMesh) -> Result<(), String> {
     let c = &made.certificate;

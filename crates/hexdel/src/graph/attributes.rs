@@ -24,7 +24,7 @@ impl Triangulation {
     ///
     /// # Errors
     ///
-    /// [`Error::Segments`] and the like if the points are so large or so close together that a graph
+    /// [`Error::Segments`] and the like if the points are so large or so close together that a PSLG
     /// of them would not be meshed.
     ///
     /// # Panics
@@ -54,7 +54,7 @@ impl Triangulation {
 
 impl PslgTriangulation {
     /// The attributes of each vertex in a row, as many as the points `given` have: their own,
-    /// linearly between them in the constrained Delaunay triangulation of the graph. Along
+    /// linearly between them in the constrained Delaunay triangulation of the PSLG. Along
     /// segments they are linear between its points. None if the points have none.
     ///
     /// ```
@@ -72,7 +72,7 @@ impl PslgTriangulation {
     ///
     /// # Panics
     ///
-    /// If the mesh is not one of the graph given.
+    /// If the mesh is not one of the PSLG given.
     ///
     /// # Complexity
     ///
@@ -100,7 +100,7 @@ impl PslgTriangulation {
         all
     }
 
-    /// The attributes of each point of the graph that was meshed.
+    /// The attributes of each point of the PSLG that was meshed.
     fn attributes_of_points(&self, given: &Pslg) -> Vec<f64> {
         let n = given.attributes_per_point;
         let Some(report) = &self.repairs else {

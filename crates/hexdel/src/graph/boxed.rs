@@ -1,6 +1,6 @@
-//! A rectangle around a graph, as four segments more.
+//! A rectangle around a PSLG, as four segments more.
 //!
-//! They come last, so that the graph's own points and segments keep their
+//! They come last, so that the PSLG's own points and segments keep their
 //! numbers, and are forgotten when the mesh is made.
 
 use hexdel_geom::{DVec2, Pslg};
@@ -9,7 +9,7 @@ use hexdel_pslg::PslgMesh;
 /// The margin over the longer side.
 const MARGIN: f64 = 0.1;
 
-/// The graph in its box.
+/// The PSLG in its box.
 pub(super) fn with_box(graph: &Pslg) -> Pslg {
     let mut boxed = graph.clone();
     let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -35,7 +35,7 @@ pub(super) fn with_box(graph: &Pslg) -> Pslg {
     boxed
 }
 
-/// Leaves of a mesh's arrays what is about the graph without its box.
+/// Leaves of a mesh's arrays what is about the PSLG without its box.
 pub(super) fn forget_box(made: &mut PslgMesh, graph: &Pslg) {
     let (points, segments) = (graph.points.len(), graph.segments.len());
     // The box may lie in a hole, as a whole: then it has no vertices.

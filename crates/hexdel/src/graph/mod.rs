@@ -1,6 +1,6 @@
-//! Options of graphs, and the one call for them.
+//! Options of PSLGs, and the one call for them.
 //!
-//! What makes the mesh is `hexdel-pslg`. Here the graph is repaired if asked
+//! What makes the mesh is `hexdel-pslg`. Here the PSLG is repaired if asked
 //! for, the domain settled, and the finished mesh checked for its segments.
 
 mod attributes;
@@ -27,12 +27,12 @@ use verify::Meshed;
 use watch::Stopwatch;
 use web_time::Instant;
 
-/// The part of the plane that the mesh of a graph covers. Holes are left out of
+/// The part of the plane that the mesh of a PSLG covers. Holes are left out of
 /// each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Domain {
-    /// A regular hexagon around the points. The default of graphs without
+    /// A regular hexagon around the points. The default of PSLGs without
     /// segments.
     Hexagon,
     /// The convex hull of the points.
@@ -40,7 +40,7 @@ pub enum Domain {
     /// The rectangle around the points, with a margin of a tenth of its longer
     /// side.
     Box,
-    /// What segments enclose. The default of graphs with segments.
+    /// What segments enclose. The default of PSLGs with segments.
     Inside,
 }
 
@@ -65,10 +65,10 @@ impl Domain {
     }
 }
 
-/// How a graph is repaired.
+/// How a PSLG is repaired.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Tolerance {
-    /// In proportion to the graph.
+    /// In proportion to the PSLG.
     Relative,
     /// In input units.
     Absolute(f64),
@@ -98,7 +98,7 @@ pub(crate) struct GraphOptions {
 }
 
 impl GraphOptions {
-    /// What a session goes on with: its graph is repaired once, at the beginning.
+    /// What a session goes on with: its PSLG is repaired once, at the beginning.
     pub(crate) fn for_session(self) -> Self {
         Self { repair: None, ..self }
     }
@@ -121,7 +121,7 @@ impl GraphOptions {
     }
 }
 
-/// Meshes a graph of points and segments with the default options: what the
+/// Meshes a PSLG of points and segments with the default options: what the
 /// segments enclose, without the holes, at 30 to 90 degrees.
 ///
 /// # Errors
@@ -149,9 +149,9 @@ pub fn triangulate_pslg(pslg: &Pslg) -> Result<PslgTriangulation, Error> {
     Mesher::new().triangulate_pslg(pslg)
 }
 
-/// Options and calls for graphs.
+/// Options and calls for PSLGs.
 impl Mesher {
-    /// What part of the plane the mesh of a graph covers: by default what its
+    /// What part of the plane the mesh of a PSLG covers: by default what its
     /// segments enclose, or a hexagon if it has none.
     ///
     /// ```
@@ -168,7 +168,7 @@ impl Mesher {
     }
 
     /// The bounds of triangles at most one edge away from a point or segment of
-    /// a graph, by default those of [`bounds`](Self::bounds), or else 30 to 90
+    /// a PSLG, by default those of [`bounds`](Self::bounds), or else 30 to 90
     /// degrees.
     ///
     /// ```
@@ -185,8 +185,8 @@ impl Mesher {
         self
     }
 
-    /// The largest area of a triangle of a graph's mesh, in square input units,
-    /// whose centroid lies in the smallest circle around the graph. Regions may
+    /// The largest area of a triangle of a PSLG's mesh, in square input units,
+    /// whose centroid lies in the smallest circle around the PSLG. Regions may
     /// have limits of their own, and keep both. Triangles that are larger all the
     /// same are listed in [`failed`](PslgTriangulation::failed).
     ///
@@ -204,7 +204,7 @@ impl Mesher {
         self
     }
 
-    /// How segments come into the mesh of a graph, by default as an optimiser
+    /// How segments come into the mesh of a PSLG, by default as an optimiser
     /// makes them fit.
     ///
     /// [`SegmentMethod::Paper`] is for comparison: it keeps no bounds near
@@ -224,7 +224,7 @@ impl Mesher {
         self
     }
 
-    /// Repairs graphs first: points within a billionth of the graph's size
+    /// Repairs PSLGs first: points within a billionth of the PSLG's size
     /// become one, segments are divided where they cross and where points lie on
     /// them, or nearly so: seen from both ends at less than 0.015 degrees.
     /// [`PslgTriangulation::repairs`] tells all that was done.
@@ -287,8 +287,8 @@ impl Mesher {
         self
     }
 
-    /// Meshes a graph of points and segments, with holes, regions and polygons. Points
-    /// alone are a graph, too ([`Pslg::from_points`]).
+    /// Meshes a PSLG of points and segments, with holes, regions and polygons. Points
+    /// alone are a PSLG, too ([`Pslg::from_points`]).
     ///
     /// # Guarantees
     ///
@@ -301,7 +301,7 @@ impl Mesher {
     /// and so are those larger than a limit on areas or with edges longer than a
     /// [`size`](Self::size) allows.
     /// That none fails is not guaranteed; where segments meet at 30 degrees or
-    /// more it is what to expect. Same graph, same bytes, at any number of
+    /// more it is what to expect. Same PSLG, same bytes, at any number of
     /// threads.
     ///
     /// # Errors
@@ -372,7 +372,7 @@ impl Mesher {
         }
     }
 
-    /// Refuses sizes that coordinates do not resolve around a graph.
+    /// Refuses sizes that coordinates do not resolve around a PSLG.
     fn check_graph_size(&self, points: &[DVec2]) -> Result<(), SizeError> {
         let (Some(size), Some(circle)) = (&self.size, smallest_enclosing_circle(points)) else {
             return Ok(());

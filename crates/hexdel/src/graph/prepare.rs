@@ -1,4 +1,4 @@
-//! What is meshed of a graph, and what is to be said of it: the same for a mesh, a session
+//! What is meshed of a PSLG, and what is to be said of it: the same for a mesh, a session
 //! and a file of another format.
 
 use super::boxed;
@@ -10,19 +10,19 @@ use crate::mesher::Mesher;
 use hexdel_geom::Pslg;
 use hexdel_pslg::{Extent, RepairReport, Seed, Unused, UnusedSeed, Validated, validate};
 
-/// A graph as it is meshed.
+/// A PSLG as it is meshed.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct PreparedPslg {
-    /// The graph given, or what repair has made of it, with holes and regions in place of polygons.
+    /// The PSLG given, or what repair has made of it, with holes and regions in place of polygons.
     pub graph: Pslg,
     /// What repair did, if it did or was asked for: as [`repairs`](crate::PslgTriangulation::repairs).
     pub repairs: Option<RepairReport>,
-    /// What is not used of the graph, or could have been meant otherwise.
+    /// What is not used of the PSLG, or could have been meant otherwise.
     pub warnings: Vec<Warning>,
 }
 
-/// A graph on its way to a mesh.
+/// A PSLG on its way to a mesh.
 pub(super) struct Prepared {
     pub(super) repaired: Repaired,
     /// With the box, if that is the domain, and without seeds outside of the hull, if that is.
@@ -32,7 +32,7 @@ pub(super) struct Prepared {
 }
 
 impl Mesher {
-    /// The graph that is meshed: repaired if asked for, borders of polygons divided where
+    /// The PSLG that is meshed: repaired if asked for, borders of polygons divided where
     /// they meet others, and holes and regions in place of polygons; with the warnings that a
     /// mesh of it has.
     ///
@@ -80,7 +80,7 @@ impl Mesher {
         self.graph.domain.unwrap_or(usual)
     }
 
-    /// A graph with holes and regions in place of polygons, and what is to be said of them.
+    /// A PSLG with holes and regions in place of polygons, and what is to be said of them.
     fn seeded(
         &self,
         validated: Validated,
@@ -118,13 +118,13 @@ impl Mesher {
     }
 }
 
-/// The graph, in its box if that is the domain, if it is valid.
+/// The PSLG, in its box if that is the domain, if it is valid.
 fn valid(repaired: &Repaired, domain: Domain) -> Result<Validated, Error> {
     let boxed = (domain == Domain::Box).then(|| boxed::with_box(&repaired.graph));
     validate(boxed.as_ref().unwrap_or(&repaired.graph)).map_err(|e| repaired.as_given(e))
 }
 
-/// In the numbers of the graph given, of which the box is no segment.
+/// In the numbers of the PSLG given, of which the box is no segment.
 fn as_given(unused: UnusedSeed, repaired: &Repaired) -> UnusedSeed {
     let why = match unused.why {
         Unused::OnSegment { segment } if segment as usize >= repaired.graph.segments.len() => Unused::Outside,

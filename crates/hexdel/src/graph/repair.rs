@@ -1,4 +1,4 @@
-//! A graph as given or repaired, and errors in the numbers of the one given.
+//! A PSLG as given or repaired, and errors in the numbers of the one given.
 
 use super::Tolerance;
 use crate::error::Error;
@@ -8,15 +8,15 @@ use hexdel_pslg::{
     repair_nearly_on,
 };
 
-/// The tolerance over the graph's size; a hundredth of the width of the thinnest
+/// The tolerance over the PSLG's size; a hundredth of the width of the thinnest
 /// hair that coordinates of that size resolve angles in would still do.
 const OF_SIZE: f64 = 1e-9;
 
-/// The tolerance over the largest coordinate, for small graphs far from the
+/// The tolerance over the largest coordinate, for small PSLGs far from the
 /// origin: meshes need distances of about `2e-11` of it.
 const OF_COORDINATE: f64 = 1e-10;
 
-/// A graph to be meshed.
+/// A PSLG to be meshed.
 pub(crate) struct Repaired {
     pub(crate) graph: Pslg,
     /// What was done, if anything was asked for or segments were dropped.
@@ -42,7 +42,7 @@ impl Repaired {
         Ok(Self { graph, report: Some(report) })
     }
 
-    /// A graph that is not valid as given, with the borders of its polygons divided where they
+    /// A PSLG that is not valid as given, with the borders of its polygons divided where they
     /// meet those of others, or lines: that is how maps are drawn. Whatever else is wrong stays so.
     pub(super) fn divided(given: &Pslg) -> Result<Self, Error> {
         let owners = Owners::of(given);
@@ -75,19 +75,19 @@ impl Repaired {
         self.graph.regions.clone_from(&seeded.regions);
     }
 
-    /// An error of validation in the numbers of the graph given.
+    /// An error of validation in the numbers of the PSLG given.
     pub(super) fn as_given(&self, error: ValidateError) -> Error {
         self.names(|names| names.of_validation(error).into())
     }
 
-    /// An error of meshing in the numbers of the graph given.
+    /// An error of meshing in the numbers of the PSLG given.
     pub(super) fn error_as_given(&self, error: PslgError) -> Error {
         self.names(|names| names.of_meshing(error).into())
     }
 
     fn names<T>(&self, with: impl FnOnce(&Names<'_>) -> T) -> T {
         let (points, segments) = (self.graph.points.len(), self.graph.segments.len());
-        // What comes after those of the graph is its box.
+        // What comes after those of the PSLG is its box.
         let point = |p: usize| match self.point(p) {
             _ if p >= points => Feature::Box,
             Some(given) => Feature::Point(given),
@@ -97,7 +97,7 @@ impl Repaired {
         with(&Names { point: &point, segment: &segment })
     }
 
-    /// The first point given that a point of the graph is.
+    /// The first point given that a point of the PSLG is.
     fn point(&self, point: usize) -> Option<usize> {
         match &self.report {
             None => Some(point),
@@ -105,14 +105,14 @@ impl Repaired {
         }
     }
 
-    /// The first segment given that a segment of the graph is a part of.
+    /// The first segment given that a segment of the PSLG is a part of.
     pub(super) fn segment(&self, segment: usize) -> usize {
         let report = self.report.as_ref();
         report.and_then(|r| r.sources.get(segment)?.first()).map_or(segment, |&s| s as usize)
     }
 }
 
-/// What the points and segments of a graph made on the way are of the one that its author knows.
+/// What the points and segments of a PSLG made on the way are of the one that its author knows.
 pub(crate) struct Names<'a> {
     pub(crate) point: &'a dyn Fn(usize) -> Feature,
     pub(crate) segment: &'a dyn Fn(usize) -> Feature,
@@ -237,7 +237,7 @@ fn relative(graph: &Pslg) -> f64 {
 mod tests {
     use super::*;
 
-    /// The box has no number in the graph given.
+    /// The box has no number in the PSLG given.
     #[test]
     fn sides_of_the_box_are_called_so() {
         let graph =

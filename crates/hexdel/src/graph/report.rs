@@ -1,4 +1,4 @@
-//! The figures of a graph's mesh, for a file or a pipe.
+//! The figures of a PSLG's mesh, for a file or a pipe.
 
 use super::result::PslgTriangulation;
 use super::warning::Warning;
@@ -7,7 +7,7 @@ use hexdel_geom::{AngleBounds, Certificate, DVec2, Pslg, Voronoi, VoronoiSummary
 use hexdel_pslg::{Exception, Reason, Repair, SegmentMethod};
 use serde::Serialize;
 
-/// The figures of a graph's mesh.
+/// The figures of a PSLG's mesh.
 ///
 /// Points and segments are counted as in [`PslgTriangulation::graph`], those in
 /// `repairs` as given.
@@ -48,7 +48,7 @@ pub struct PslgReport<'a> {
     pub failed: Vec<ExceptionEntry>,
     /// What repair did, in order.
     pub repairs: Vec<RepairEntry>,
-    /// What is not used of the graph, or could have been meant otherwise.
+    /// What is not used of the PSLG, or could have been meant otherwise.
     pub warnings: Vec<WarningEntry>,
     /// How often parts of the grid were refined because bounds were not met.
     pub retries: u32,
@@ -104,7 +104,7 @@ pub struct RepairEntry {
     pub at: DVec2,
 }
 
-/// Something to know about the graph.
+/// Something to know about the PSLG.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WarningEntry {
@@ -157,7 +157,7 @@ impl ExceptionEntry {
     ///
     /// # Panics
     ///
-    /// If the exception names a point that the graph does not have.
+    /// If the exception names a point that the PSLG does not have.
     pub fn new(exception: &Exception, graph: &Pslg) -> Self {
         let corner = |point: u32, angle_deg| Corner { point, at: graph.points[point as usize], angle_deg };
         let (reason, corner) = match exception.reason {

@@ -9,10 +9,10 @@ use hexdel_geom::certificate::PlaceCheck;
 use hexdel_geom::{AngleBounds, Certificate, Pslg, SegmentCheck, TriMesh, VertexId};
 use hexdel_pslg::{Exception, PslgMesh, RepairReport, SegmentEdge, SegmentMethod, holds};
 
-/// A mesh of a graph of points and segments.
+/// A mesh of a PSLG of points and segments.
 ///
 /// Points, segments and regions are counted as in [`graph`](Self::graph): the
-/// graph given, or what repair has made of it, with holes and regions in place of
+/// PSLG given, or what repair has made of it, with holes and regions in place of
 /// polygons.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -23,15 +23,15 @@ pub struct PslgTriangulation {
     pub graph: Pslg,
     /// What repair did, if it was asked for, or if borders of polygons had to be divided
     /// where they cross or run along each other: all changes, and which points and
-    /// segments given have become which of the graph. Segments without length and those
+    /// segments given have become which of the PSLG. Segments without length and those
     /// that are the same as another are dropped without being asked for, and listed here.
     pub repairs: Option<RepairReport>,
-    /// What is not used of the graph, or could have been meant otherwise.
+    /// What is not used of the PSLG, or could have been meant otherwise.
     pub warnings: Vec<Warning>,
-    /// The vertex of each point of the graph; duplicates share one. `None` for a
+    /// The vertex of each point of the PSLG; duplicates share one. `None` for a
     /// point in a hole or outside of the domain.
     pub vertex_of_point: Vec<Option<VertexId>>,
-    /// For each vertex the first point of the graph that it is, if any.
+    /// For each vertex the first point of the PSLG that it is, if any.
     pub point_of_vertex: Vec<Option<u32>>,
     /// A marker of each vertex: that of its point, or else of a segment it lies
     /// on, or else 1 on the boundary and 0 inside.

@@ -94,7 +94,7 @@ pub(super) struct Meshed<'a> {
 }
 
 /// The largest area of each triangle: that of its region, found anew in the mesh, and,
-/// in the circle around the graph, that of the options. None without any limit.
+/// in the circle around the PSLG, that of the options. None without any limit.
 fn areas(
     mesh: &hexdel_geom::TriMesh,
     segments: &SegmentCheck,
@@ -119,7 +119,7 @@ fn areas(
     })
 }
 
-/// Checks the segments of a graph, piece by piece between the points on them,
+/// Checks the segments of a PSLG, piece by piece between the points on them,
 /// those in holes and outside of the domain left out.
 pub(super) fn segments(
     made: &mut PslgMesh,
@@ -130,7 +130,7 @@ pub(super) fn segments(
     let carved = validated.carved(domain == Domain::Inside);
     let lost = made.vertex_of_point.iter().zip(&carved.points).filter(|(v, carved)| v.is_none() && !**carved);
     made.certificate.inputs += lost.count();
-    // What comes after the graph's own is the box.
+    // What comes after the PSLG's own is the box.
     let own =
         validated.pieces().zip(carved.pieces).filter(|((s, _), carved)| *s < graph.segments.len() && !carved);
     let (segment_of_piece, pieces): (Vec<usize>, Vec<[u32; 2]>) = own.map(|(piece, _)| piece).unzip();

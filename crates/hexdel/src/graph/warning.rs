@@ -1,9 +1,9 @@
-//! What a graph says that a mesh makes no use of, or could be meant otherwise.
+//! What a PSLG says that a mesh makes no use of, or could be meant otherwise.
 
 use hexdel_geom::{DVec2, Pslg, Region};
 use hexdel_pslg::{Cover, Repair, RepairReport, StrayRing, UnusedSeed};
 
-/// Something about a graph that its author should know of. The mesh is what was asked
+/// Something about a PSLG that its author should know of. The mesh is what was asked
 /// for all the same.
 ///
 /// Segments, holes, regions and polygons are counted as given.

@@ -56,7 +56,7 @@ impl From<TemplateSession> for AnySession {
 }
 
 impl AnySession {
-    /// The mesh of the points of a graph as a session, with its segments if there are any:
+    /// The mesh of the points of a PSLG as a session, with its segments if there are any:
     /// of templates if that is the mesher's method, else compact.
     ///
     /// # Errors

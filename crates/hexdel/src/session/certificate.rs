@@ -15,7 +15,7 @@ impl Session {
     /// ([`renew`](Self::renew)). Up to 1,024 points [`remove`](Self::remove) makes it anew itself
     /// where it would leave such edges, if the domain has room for a mesh without.
     ///
-    /// The mesh of a graph is held against the bounds near segments, with exempt triangles out
+    /// The mesh of a PSLG is held against the bounds near segments, with exempt triangles out
     /// of bounds: [`check`](Self::check) knows them.
     ///
     /// # Complexity

@@ -1,9 +1,9 @@
-//! A graph with points more or fewer, its segments divided at those on them.
+//! A PSLG with points more or fewer, its segments divided at those on them.
 
 use super::PointId;
 use hexdel_geom::{DVec2, Pslg};
 
-/// What the points and segments of a divided graph are.
+/// What the points and segments of a divided PSLG are.
 #[derive(Clone, Debug)]
 pub(super) struct Divided {
     /// The number of each point in the session.
@@ -15,7 +15,7 @@ pub(super) struct Divided {
 }
 
 impl Divided {
-    /// A graph as it is.
+    /// A PSLG as it is.
     pub(super) fn none(graph: &Pslg) -> Self {
         Self {
             ids: (0..graph.points.len() as u64).map(PointId).collect(),
@@ -25,7 +25,7 @@ impl Divided {
     }
 }
 
-/// A graph that points are added to.
+/// A PSLG that points are added to.
 #[derive(Clone, Debug)]
 pub(super) struct Divider {
     graph: Pslg,
@@ -35,7 +35,7 @@ pub(super) struct Divider {
 }
 
 impl Divider {
-    /// A graph without the points that are gone, but for ends of segments.
+    /// A PSLG without the points that are gone, but for ends of segments.
     pub(super) fn of(graph: &Pslg, is_there: impl Fn(usize) -> bool) -> Self {
         let mut kept: Vec<bool> = (0..graph.points.len()).map(is_there).collect();
         graph.segments.iter().flatten().for_each(|&p| kept[p as usize] = true);
@@ -55,7 +55,7 @@ impl Divider {
         }
     }
 
-    /// Adds a point, on a segment of the graph if one is named.
+    /// Adds a point, on a segment of the PSLG if one is named.
     pub(super) fn add(&mut self, id: PointId, at: DVec2, on: Option<u32>) {
         let point = self.graph.points.len() as u32;
         self.graph.points.push(at);
@@ -66,7 +66,7 @@ impl Divider {
         }
     }
 
-    /// The graph with its segments divided.
+    /// The PSLG with its segments divided.
     pub(super) fn divided(mut self) -> (Pslg, Divided) {
         self.joints.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         let (mut segments, mut whole) = (Vec::new(), Vec::new());

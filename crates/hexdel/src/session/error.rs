@@ -26,7 +26,7 @@ pub enum SessionError {
         /// Circumradius of the domain.
         radius: f64,
     },
-    /// A point is not in what the segments of a graph enclose.
+    /// A point is not in what the segments of a PSLG enclose.
     #[error("({:?}, {:?}) lies outside the domain", at.x, at.y)]
     NotCovered {
         /// The point.

@@ -1,4 +1,4 @@
-//! Sessions of graphs: what of the graph stays, and the mesh seen with it.
+//! Sessions of PSLGs: what of the PSLG stays, and the mesh seen with it.
 
 use super::divide::{Divided, Divider};
 use super::{PointId, Session, SessionError, SessionMesh};
@@ -24,10 +24,10 @@ const STRAIGHT: f64 = 1e-3;
 /// How much the radii of a ring may differ, in parts of one: they are rounded.
 const ON_RING: f64 = 1e-9;
 
-/// What does not change in a session of a graph.
+/// What does not change in a session of a PSLG.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Frame {
-    /// The graph. The first points of the session are its points.
+    /// The PSLG. The first points of the session are its points.
     pub(super) graph: Pslg,
     /// The ends of each straight part of a segment, or of a side of the domain, and
     /// of each edge within a fan.
@@ -57,7 +57,7 @@ impl Frame {
     }
 }
 
-/// What was to be said of a graph when its session began.
+/// What was to be said of a PSLG when its session began.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Told {
     repairs: Option<RepairReport>,
@@ -68,14 +68,14 @@ pub(super) struct Told {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SessionCheck {
-    /// The certificate of the mesh; of a graph against the bounds near segments,
-    /// and triangles at corners of the graph narrower than the bound count as out
+    /// The certificate of the mesh; of a PSLG against the bounds near segments,
+    /// and triangles at corners of the PSLG narrower than the bound count as out
     /// of bounds in it.
     pub certificate: Certificate,
-    /// Whether the segments of a graph are unions of edges.
+    /// Whether the segments of a PSLG are unions of edges.
     pub segments: SegmentCheck,
     /// The corners of triangles that do not keep the bounds of their places, but for
-    /// corners of the graph narrower than the bound.
+    /// corners of the PSLG narrower than the bound.
     pub out_of_bounds: Vec<[DVec2; 3]>,
 }
 
@@ -93,7 +93,7 @@ impl SessionCheck {
         let broken =
             c.not_counter_clockwise + c.malformed + c.not_finite + c.repeated_edges + c.unused_vertices;
         let fits = self.out_of_bounds.is_empty() && self.segments.missing.is_empty();
-        // Of a graph, the certificate's count of triangles has exempt ones in it.
+        // Of a PSLG, the certificate's count of triangles has exempt ones in it.
         (c.holds() || self.segments.segments > 0)
             && fits
             && c.delaunay
@@ -102,14 +102,14 @@ impl SessionCheck {
     }
 }
 
-/// The mesh of a graph in a row of straight parts.
+/// The mesh of a PSLG in a row of straight parts.
 struct Rows {
     lines: Vec<[DVec2; 2]>,
     segment_of_line: Vec<Option<u32>>,
     edges: Vec<[VertexId; 2]>,
     /// For each vertex the line that it lies on between the ends, if any.
     on: Vec<Option<usize>>,
-    /// Ends of lines, and points of the graph.
+    /// Ends of lines, and points of the PSLG.
     is_point: Vec<bool>,
     /// Lines from here on are edges of fans.
     fans: usize,
@@ -187,8 +187,8 @@ impl Rows {
 }
 
 impl Session {
-    /// The mesh that a mesher makes of a graph of points and segments, as a
-    /// session. Points of the graph are numbered as in it, or as in what repair has made of it
+    /// The mesh that a mesher makes of a PSLG of points and segments, as a
+    /// session. Points of the PSLG are numbered as in it, or as in what repair has made of it
     /// ([`repairs`](Self::repairs)); those in holes or outside of the domain are not there, and
     /// those that segments end at stay.
     ///
@@ -212,7 +212,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError::Mesh`], [`SessionError::NotCertified`] for a graph whose mesh
+    /// [`SessionError::Mesh`], [`SessionError::NotCertified`] for a PSLG whose mesh
     /// does not keep its bounds, [`SessionError::Size`], [`SessionError::NotForSessions`],
     /// [`SessionError::Duplicate`].
     pub fn with_segments(graph: &Pslg, mesher: &Mesher) -> Result<Self, SessionError> {
@@ -246,7 +246,7 @@ impl Session {
         }
     }
 
-    /// The mesh that a mesher has made of a graph, `whole` but for points on its segments, as
+    /// The mesh that a mesher has made of a PSLG, `whole` but for points on its segments, as
     /// a session.
     fn of_graph(
         made: &PslgTriangulation,
@@ -307,7 +307,7 @@ impl Session {
         Ok(session)
     }
 
-    /// A mesh of the graph with the points that are there and more, the last ones of all.
+    /// A mesh of the PSLG with the points that are there and more, the last ones of all.
     ///
     /// # Errors
     ///
@@ -347,7 +347,7 @@ impl Session {
         }
     }
 
-    /// What of the graph that the session began with is not used or could have been meant
+    /// What of the PSLG that the session began with is not used or could have been meant
     /// otherwise, as of [`PslgTriangulation::warnings`]. It is not saved.
     ///
     /// ```
@@ -363,8 +363,8 @@ impl Session {
         &self.told.warnings
     }
 
-    /// What repair did to the graph that the session began with, as of
-    /// [`PslgTriangulation::repairs`]: the points of the session are those of the graph made. It
+    /// What repair did to the PSLG that the session began with, as of
+    /// [`PslgTriangulation::repairs`]: the points of the session are those of the PSLG made. It
     /// is not saved.
     pub fn repairs(&self) -> Option<&RepairReport> {
         self.told.repairs.as_ref()
@@ -412,7 +412,7 @@ impl Session {
         certify(&self.live.snapshot().mesh, &options)
     }
 
-    /// Adds what a graph has besides: edges, markers, regions.
+    /// Adds what a PSLG has besides: edges, markers, regions.
     pub(super) fn add_segments(&self, frame: &Frame, snapshot: &Snapshot, made: &mut SessionMesh) {
         let graph = &frame.graph;
         let edge = |side: &hexdel_optimize::live::SegmentSide| {
@@ -434,7 +434,7 @@ impl Session {
 }
 
 /// The edges of fans around points with narrow corners, but for those on segments, each
-/// once: in a session they stay as segments do, and what is near them is near the graph.
+/// once: in a session they stay as segments do, and what is near them is near the PSLG.
 fn fan_edges(made: &PslgTriangulation, edges: &[&SegmentEdge]) -> Vec<[VertexId; 2]> {
     let sorted = |[a, b]: [VertexId; 2]| [a.min(b), a.max(b)];
     let on_segments: BTreeSet<[VertexId; 2]> = edges.iter().map(|e| sorted(e.ends)).collect();

@@ -81,7 +81,7 @@ pub struct Session {
     points: Vec<Option<u32>>,
     /// The point in each slot that has one.
     of_slot: BTreeMap<u32, PointId>,
-    /// What there is of a graph.
+    /// What there is of a PSLG.
     frame: Option<Arc<Frame>>,
     /// What was to be said of it.
     told: Arc<Told>,
@@ -212,7 +212,7 @@ impl Session {
     }
 
     /// Whether the domain grows by itself for points outside of it, which is not so unless it
-    /// was said. That of a graph does not.
+    /// was said. That of a PSLG does not.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher, Session};
@@ -341,7 +341,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError::UnknownPoint`]; of a graph [`SessionError::SegmentEnd`], and
+    /// [`SessionError::UnknownPoint`]; of a PSLG [`SessionError::SegmentEnd`], and
     /// [`SessionError::NoRoom`] where the bounds of places without a point cannot be
     /// reached.
     ///
@@ -447,7 +447,7 @@ impl Session {
     /// # Errors
     ///
     /// [`SessionError`] if the larger domain cannot be meshed, or if it is that of
-    /// a graph.
+    /// a PSLG.
     pub fn grow(&mut self) -> Result<Outcome, SessionError> {
         if self.frame.is_some() {
             return Err(SessionError::NotForSessions { option: "growing the domain of a PSLG" });
@@ -460,7 +460,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`SessionError`] if that fails, or the domain is that of a graph and not what its
+    /// [`SessionError`] if that fails, or the domain is that of a PSLG and not what its
     /// segments enclose.
     ///
     /// # Complexity

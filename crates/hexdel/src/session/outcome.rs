@@ -49,11 +49,11 @@ pub struct SessionMesh {
     pub triangle_serials: Vec<u64>,
     /// The points and their vertices.
     pub points: Vec<(PointId, VertexId)>,
-    /// Of a graph: the edges that segments, and the sides of a domain that is no
+    /// Of a PSLG: the edges that segments, and the sides of a domain that is no
     /// hexagon, consist of, in a row along each.
     pub edges: Vec<SegmentEdge>,
-    /// Of a graph: a marker of each vertex.
+    /// Of a PSLG: a marker of each vertex.
     pub vertex_markers: Vec<i32>,
-    /// Of a graph: the region of each triangle, if it lies in one.
+    /// Of a PSLG: the region of each triangle, if it lies in one.
     pub region_of_triangle: Vec<Option<u32>>,
 }

@@ -51,7 +51,7 @@ impl Session {
         self.insert_anew(points, radius)
     }
 
-    /// Meshes the graph anew, with more points, one of which found no room.
+    /// Meshes the PSLG anew, with more points, one of which found no room.
     pub(super) fn insert_by_remeshing_graph(
         &mut self,
         frame: &Frame,
@@ -71,7 +71,7 @@ impl Session {
         Ok(self.replace_graph(anew))
     }
 
-    /// Puts another mesh of the graph in the place of this one.
+    /// Puts another mesh of the PSLG in the place of this one.
     pub(super) fn replace_graph(&mut self, anew: Self) -> Outcome {
         let slots = anew.of_slot.into_iter().map(|(slot, id)| (id, slot)).collect();
         self.replace((anew.live, anew.frame), slots, self.radius, self.size.clone())

@@ -49,13 +49,13 @@ pub(crate) fn points(name: &str) -> Vec<DVec2> {
     hexdel::io::read_points(path).unwrap().points
 }
 
-/// The graph `fixtures/graphs/<name>.poly`.
+/// The PSLG `fixtures/graphs/<name>.poly`.
 pub(crate) fn graph(name: &str) -> Pslg {
     let path = root().join("fixtures/graphs").join(name).with_extension("poly");
     hexdel::io::read_points(path).unwrap()
 }
 
-/// All graphs with their names, in their order.
+/// All PSLGs with their names, in their order.
 pub(crate) fn graphs() -> Vec<(String, Pslg)> {
     let entries = std::fs::read_dir(root().join("fixtures/graphs")).unwrap();
     let names = entries.map(|e| e.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned());
