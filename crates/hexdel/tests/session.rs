@@ -34,14 +34,14 @@ fn check(session: &Session) {
 fn a_mesh_that_was_made_begins_the_same_session() {
     let points = points(30, 5);
     let mesher = Mesher::new().effort(Effort::Fast).size(Size::constant(0.3).unwrap());
-    let mut made = Session::of(&points, mesher.triangulate(&points).unwrap(), &mesher).unwrap();
+    let mut made = Session::of(mesher.triangulate(&points).unwrap(), &mesher).unwrap();
     let mut anew = Session::new(&points, &mesher).unwrap();
     assert_eq!(made.to_ron(), anew.to_ron());
     let at = DVec2::new(0.4, 0.6);
     assert_eq!(made.insert(at), anew.insert(at));
     check(&made);
     let twice = [points[0], points[1], points[0]];
-    let refused = Session::of(&twice, mesher.triangulate(&twice).unwrap(), &mesher);
+    let refused = Session::of(mesher.triangulate(&twice).unwrap(), &mesher);
     assert!(matches!(refused, Err(SessionError::Duplicate { of: PointId(0), .. })));
 }
 

@@ -33,8 +33,8 @@ pub struct RawMesh {
 
 /// How a mesh came to be.
 pub(crate) enum Made {
-    /// With the points, which a session of it needs.
-    Points(Box<Triangulation>, Vec<DVec2>, Box<Mesher>),
+    /// With the options, which a session of it goes on with.
+    Points(Box<Triangulation>, Box<Mesher>),
     Graph(Box<PslgTriangulation>),
     Session(Box<SessionMesh>, Box<SessionCheck>),
 }
@@ -61,18 +61,18 @@ pub fn mesh(graph: &RawGraph, options: &str, progress: Option<Function>) -> Resu
     } else {
         None
     };
-    Ok(RawMesh { heights, ..RawMesh::of_points(made, points.clone(), mesher) })
+    Ok(RawMesh { heights, ..RawMesh::of_points(made, mesher) })
 }
 
 impl RawMesh {
-    fn of_points(made: Triangulation, points: Vec<DVec2>, mesher: Mesher) -> Self {
+    fn of_points(made: Triangulation, mesher: Mesher) -> Self {
         Self {
             input_of_vertex: made.input_of_vertex(),
             vertex_of_input: made.vertex_of_input.iter().copied().map(Some).collect(),
             edges: Vec::new(),
             regions: Vec::new(),
             heights: None,
-            made: Made::Points(Box::new(made), points, Box::new(mesher)),
+            made: Made::Points(Box::new(made), Box::new(mesher)),
         }
     }
 

@@ -33,10 +33,10 @@ impl RawSession {
 
     /// A mesh that has been made of points, as a session.
     pub fn of_mesh(mesh: &RawMesh) -> Result<Self, JsValue> {
-        let Made::Points(made, points, mesher) = &mesh.made else {
+        let Made::Points(made, mesher) = &mesh.made else {
             return Err(errors::plain("option", "only the mesh of points becomes a session"));
         };
-        let session = Session::of(points, (**made).clone(), mesher);
+        let session = Session::of((**made).clone(), mesher);
         session.map(Self::of).map_err(|error| errors::of_session(&error))
     }
 

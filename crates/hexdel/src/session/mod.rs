@@ -157,7 +157,7 @@ impl Session {
     /// earlier point, [`SessionError::NotForSessions`] for the simple method.
     pub fn new(points: &[DVec2], mesher: &Mesher) -> Result<Self, SessionError> {
         let made = compact(mesher)?.triangulate(points)?;
-        Self::of(points, made, mesher)
+        Self::of(made, mesher)
     }
 
     /// A mesh that a mesher has made of points, as a session: that of [`new`](Self::new), if
@@ -168,7 +168,7 @@ impl Session {
     /// let points = [DVec2::ZERO, DVec2::X, DVec2::new(0.2, 0.7)];
     /// let mesher = Mesher::new();
     /// let made = mesher.triangulate(&points)?;
-    /// let mut session = Session::of(&points, made, &mesher)?;
+    /// let mut session = Session::of(made, &mesher)?;
     /// session.insert(DVec2::new(0.4, 0.4))?;
     /// # Ok::<(), hexdel::SessionError>(())
     /// ```
@@ -176,16 +176,13 @@ impl Session {
     /// # Errors
     ///
     /// As [`new`](Self::new) but for [`SessionError::Mesh`].
-    ///
-    /// # Panics
-    ///
-    /// If the mesh is not of these points.
-    pub fn of(points: &[DVec2], made: Triangulation, mesher: &Mesher) -> Result<Self, SessionError> {
+    pub fn of(made: Triangulation, mesher: &Mesher) -> Result<Self, SessionError> {
         let mesher = compact(mesher)?;
         let inputs = made.input_of_vertex();
         for (i, v) in made.vertex_of_input.iter().enumerate() {
             if let Some(first) = inputs[v.index()].filter(|&first| first as usize != i) {
-                return Err(SessionError::Duplicate { at: points[i], of: PointId(u64::from(first)) });
+                let at = made.mesh.vertices[v.index()];
+                return Err(SessionError::Duplicate { at, of: PointId(u64::from(first)) });
             }
         }
         let kinds = kinds(&made);
