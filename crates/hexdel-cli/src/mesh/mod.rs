@@ -45,10 +45,10 @@ pub(crate) struct Args {
     /// File for the Voronoi dual: .vtu .geojson .wkt .disv .nc .mpas.nc .v.node
     #[arg(long, value_name = "FILE")]
     dual: Option<PathBuf>,
-    /// hexagon, hull, box or inside [default: inside if segments, else hexagon]
+    /// hexagon (--domain-radius R), hull, box, inside [default: by the input]
     #[arg(long, value_enum, hide_possible_values = true)]
     domain: Option<DomainName>,
-    /// templates, simple or compact (fewest triangles)
+    /// templates, simple or compact; for segments --pslg paper
     #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
     /// How hard compact optimises: fast, standard or best
