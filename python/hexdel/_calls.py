@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import warnings
 from typing import Any
 
@@ -28,6 +29,7 @@ def mesh(
     *,
     min_angle: float | None = None,
     max_angle: float | None = None,
+    min_dual_edge: float | None = None,
     method: Method | None = None,
     effort: Effort | None = None,
     size: SizeLike | None = None,
@@ -48,6 +50,10 @@ def mesh(
     min_angle, max_angle : float, optional
         Bounds of angles, degrees; 43.8978 and 90 unless said otherwise. Wider ones
         lead to fewer triangles, narrower ones are tried.
+    min_dual_edge : float, optional
+        No edge of the Voronoi dual is shorter than this times the edge that it crosses:
+        no angle is larger than its arc cotangent, 84.3 degrees for 0.1. At most 0.3249.
+        `Mesh.dual_edges` has what was found.
     method : {'compact', 'templates', 'simple'}, optional
         Few triangles (the default); the method whose bounds are proved, in a fraction
         of the time; or 30 to 120 degrees.
@@ -107,6 +113,7 @@ def mesh(
         places,
         min_angle=min_angle,
         max_angle=max_angle,
+        min_dual_edge=min_dual_edge,
         method=method,
         effort=effort,
         size=size,
@@ -135,6 +142,7 @@ def mesh_pslg(
     repair: bool | float | None = None,
     min_angle: float | None = None,
     max_angle: float | None = None,
+    min_dual_edge: float | None = None,
     method: Method | None = None,
     effort: Effort | None = None,
     size: SizeLike | None = None,
@@ -170,7 +178,7 @@ def mesh_pslg(
     domain : {'inside', 'hull', 'box', 'hexagon'}, optional
         What is covered: what segments enclose (the default if there are any), the
         convex hull, the rectangle with a margin, a hexagon; always without holes.
-    min_angle, max_angle, method, effort, size, gradation, max_area, budget, threads, progress
+    min_angle, max_angle, min_dual_edge, method, effort, size, gradation, max_area, budget, threads, progress
         As of `mesh`. Bounds hold next to segments as well, if given.
 
     Returns
@@ -203,6 +211,7 @@ def mesh_pslg(
         places,
         min_angle=min_angle,
         max_angle=max_angle,
+        min_dual_edge=min_dual_edge,
         method=method,
         effort=effort,
         size=size,
@@ -398,6 +407,9 @@ def _warn(data: dict[str, Any]) -> None:
     ratio = data.get("size_ratio")
     if ratio is not None and ratio > 1 + 10 * _size.SLACK:
         notes.append(f"edges are up to {ratio:.3g} times as long as the size wants")
+    dual = json.loads(data.get("dual_edges", "null"))
+    if dual and dual["below"]:
+        notes.append(f"{dual['below']} dual edges are shorter than {dual['min_ratio']:g} of their edges")
     if notes:
         warnings.warn("; ".join(notes), HexdelWarning, stacklevel=4)
 

@@ -116,6 +116,7 @@ class InternalError(HexdelError, RuntimeError):
 _CLASSES: dict[str, type[HexdelError]] = {
     "bounds": OptionError,
     "no_grading": OptionError,
+    "dual_edge": OptionError,
     "option": OptionError,
     "domain": OptionError,
     "tolerance": OptionError,
@@ -145,6 +146,7 @@ _HINTS: dict[str, str] = {
     "zero_length": "pass repair=True to drop it",
     "overlaps": "pass overlaps='later' to take the later polygon there",
     "no_grading": "pass min_angle of at most 43.89 and max_angle of at least 90",
+    "dual_edge": "pass min_dual_edge of at most 0.32; 0.1 asks for angles of at most 84.3 degrees",
     "nothing_enclosed": "close the outline, or pass domain='hull' or domain='box'",
     "flat_hull": "pass domain='hexagon' or domain='box' to mesh the area around points in a line",
     "segment_end": "segments hold indices of points, from 0",

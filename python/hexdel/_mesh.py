@@ -245,6 +245,16 @@ class Mesh:
         return ratio
 
     @property
+    def dual_edges(self) -> dict[str, Any] | None:
+        """What was found of the edges of the Voronoi dual, if `min_dual_edge` was given.
+
+        `min_ratio` is the bound, `edges` were looked at, `below` are shorter; `excused` are shorter next to `exempt`
+        triangles. `worst` is the edge with the smallest `ratio`; its `edge` are two vertices.
+        """
+        found: dict[str, Any] | None = json.loads(self._data.get("dual_edges", "null"))
+        return found
+
+    @property
     def budget_spent(self) -> bool:
         """Whether the budget ended optimisation before its end."""
         return bool(self._data.get("budget_spent", False))

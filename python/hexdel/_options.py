@@ -34,6 +34,7 @@ class Raw(TypedDict):
     effort: str | None
     min_angle: float | None
     max_angle: float | None
+    min_dual_edge: float | None
     max_area: float | None
     budget: float | None
     domain: str | None
@@ -55,6 +56,7 @@ def raw(
     effort: str | None = None,
     min_angle: float | None = None,
     max_angle: float | None = None,
+    min_dual_edge: float | None = None,
     max_area: float | None = None,
     budget: float | None = None,
     domain: str | float | None = None,
@@ -75,6 +77,7 @@ def raw(
         "effort": word(effort, EFFORTS, "effort"),
         "min_angle": number(min_angle, "min_angle", least=0.0, most=60.0),
         "max_angle": number(max_angle, "max_angle", least=60.0, most=180.0),
+        "min_dual_edge": number(min_dual_edge, "min_dual_edge", least=0.0, open_=True),
         "max_area": number(max_area, "max_area", least=0.0, open_=True),
         "budget": number(budget, "budget", least=0.0),
         "domain": word(domain, DOMAINS, "domain"),

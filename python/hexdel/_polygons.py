@@ -24,6 +24,7 @@ def mesh_polygons(
     overlaps: Literal["later", "refuse"] | None = None,
     min_angle: float | None = None,
     max_angle: float | None = None,
+    min_dual_edge: float | None = None,
     method: Method | None = None,
     effort: Effort | None = None,
     gradation: float | None = None,
@@ -47,7 +48,7 @@ def mesh_polygons(
     overlaps : {'later', 'refuse'}, optional
         Where polygons overlap the later one counts, with a warning (the default), or it is
         an error. Gaps between polygons are outside.
-    min_angle, max_angle, method, effort, gradation, max_area, budget, threads, progress
+    min_angle, max_angle, min_dual_edge, method, effort, gradation, max_area, budget, threads, progress
         As of `mesh_pslg`.
 
     Returns
@@ -85,6 +86,7 @@ def mesh_polygons(
         effort=effort,
         min_angle=min_angle,
         max_angle=max_angle,
+        min_dual_edge=min_dual_edge,
         max_area=max_area,
         budget=budget,
         repair=repair,

@@ -105,7 +105,9 @@ pub(crate) fn bad_length(py: Python<'_>, at: DVec2, length: f64) -> PyErr {
 /// Why points or a PSLG were not meshed.
 pub(crate) fn of_mesh(py: Python<'_>, error: &Error) -> PyErr {
     let mesh = match error {
-        Error::Unreached { mesh, .. } | Error::NotCertified { mesh, .. } => Some(&**mesh),
+        Error::Unreached { mesh, .. } | Error::NotCertified { mesh, .. } | Error::DualEdges { mesh, .. } => {
+            Some(&**mesh)
+        }
         _ => None,
     };
     fault_of(error).raise(py, &error.to_string(), mesh)
@@ -123,6 +125,7 @@ fn fault_of(error: &Error) -> Fault {
         Error::InvalidRadius { .. } => Fault::new("domain"),
         Error::BoundsBeyondMethod { .. } => Fault::new("bounds"),
         Error::NoGrading { .. } => Fault::new("no_grading"),
+        Error::NoDualEdge { .. } => Fault::new("dual_edge"),
         Error::Overlap { at, .. } => Fault::new("overlaps").at(*at),
         Error::Segments(error) => fault_of_segments(error),
         Error::Pslg(error) => fault_of_graph(error),
@@ -133,7 +136,7 @@ fn fault_of(error: &Error) -> Fault {
         Error::Threads { .. } => Fault::new("threads"),
         Error::Cancelled(_) => Fault::new("cancelled"),
         Error::Unreached { .. } => Fault::new("unreached"),
-        Error::NotCertified { .. } => Fault::new("not_certified"),
+        Error::NotCertified { .. } | Error::DualEdges { .. } => Fault::new("not_certified"),
         Error::Delaunay(_) | Error::Optimize(_) | Error::Refine(_) | Error::Dual(_) => Fault::new("internal"),
         _ => Fault::new("other"),
     }

@@ -55,6 +55,7 @@ fn made_of_points(py: Python<'_>, made: Triangulation) -> PyResult<Bound<'_, PyD
     dict.set_item("domain", "hexagon")?;
     dict.set_item("holds", made.certificate.holds())?;
     dict.set_item("size_ratio", made.size_ratio)?;
+    dict.set_item("dual_edges", json(&made.dual_edges)?)?;
     dict.set_item("budget_spent", made.budget_spent)?;
     dict.set_item("seconds", json(&made.seconds)?)?;
     dict.set_item("vertices", points_out(py, made.mesh.vertices)?)?;
@@ -136,6 +137,7 @@ fn made_of_graph(py: Python<'_>, made: PslgTriangulation) -> PyResult<Bound<'_, 
     dict.set_item("method", "compact")?;
     dict.set_item("holds", made.holds())?;
     dict.set_item("size_ratio", made.size_ratio)?;
+    dict.set_item("dual_edges", json(&made.dual_edges)?)?;
     dict.set_item("budget_spent", made.budget_spent)?;
     dict.set_item("seconds", json(&made.seconds)?)?;
     dict.set_item("vertices", points_out(py, made.mesh.vertices)?)?;

@@ -29,6 +29,7 @@ pub(crate) struct Options<'py> {
     effort: Option<String>,
     min_angle: Option<f64>,
     max_angle: Option<f64>,
+    min_dual_edge: Option<f64>,
     max_area: Option<f64>,
     budget: Option<f64>,
     domain: Option<String>,
@@ -82,6 +83,9 @@ impl Options<'_> {
             if of_graph {
                 mesher = mesher.near_bounds(self.bounds(py, 30.0, 90.0)?);
             }
+        }
+        if let Some(ratio) = self.min_dual_edge {
+            mesher = mesher.min_dual_edge(ratio);
         }
         if let Some(seconds) = self.budget {
             let budget = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);

@@ -115,6 +115,18 @@ def test_the_same_on_any_number_of_threads(points):
     assert one == two and hash(one) == hash(two)
 
 
+def test_dual_edges(points):
+    mesh = hexdel.mesh(points, min_dual_edge=0.05)
+    found = mesh.dual_edges
+    assert mesh.certificate.max_angle_deg <= 87.14
+    assert found["below"] == 0 and found["worst"]["ratio"] >= 0.05 - 1e-9
+    assert hexdel.mesh(points).dual_edges is None
+    with pytest.raises(hexdel.OptionError, match="at most 0.32"):
+        hexdel.mesh(points, min_dual_edge=0.4)
+    with pytest.raises(hexdel.OptionError, match="min_dual_edge must be a positive number"):
+        hexdel.mesh(points, min_dual_edge=0)
+
+
 def test_graph_with_a_hole(square):
     corners, sides, holes = square
     mesh = hexdel.mesh_pslg(corners, sides, holes=holes, markers=[1, 2, 3, 4, 5, 5, 5, 5])

@@ -83,6 +83,8 @@ test("errors are typed and name the place", () => {
   failing(() => mesh([[0, 0]], { effrt: "fast" }), { kind: "option" });
   failing(() => mesh([[0, 0]], { minAngle: Infinity }), { kind: "option" });
   failing(() => mesh([[0, 0], [1, 1]], { minAngle: 59, maxAngle: 61 }), { kind: "no_grading" });
+  failing(() => mesh([[0, 0], [1, 1]], { minDualEdge: 0.4 }), { kind: "dual_edge" });
+  assert.ok(mesh([[0, 0], [1, 0], [0.3, 0.6]], { minDualEdge: 0.1 }).certificate.max_angle_deg < 84.3);
   const crossing = { points: [[0, 0], [1, 1], [0, 1], [1, 0]], segments: [[0, 1], [2, 3]] };
   failing(() => meshPslg(crossing), { kind: "crossing", item: "segment", index: [0, 1], location: [0.5, 0.5] });
   assert.ok(meshPslg(crossing, { repair: true, domain: "hull" }).holds);

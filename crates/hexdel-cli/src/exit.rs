@@ -81,9 +81,10 @@ impl Failure {
     fn code(&self) -> u8 {
         use hexdel::Error as E;
         match self {
-            Self::Mesh { source, .. } if matches!(**source, E::NotCertified { .. } | E::Unreached { .. }) => {
-                1
-            }
+            Self::Mesh { source, .. } => match **source {
+                E::NotCertified { .. } | E::Unreached { .. } | E::DualEdges { .. } => 1,
+                _ => 2,
+            },
             _ => 2,
         }
     }

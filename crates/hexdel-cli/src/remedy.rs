@@ -101,6 +101,9 @@ impl Remedies<'_> {
                 let hull = if self.is("triangle") { "-c" } else { self.option("domain", "--domain hull")? };
                 Some(format!("{hull} meshes the convex hull; {} closes gaps of up to TOL", repair("=TOL")?))
             }
+            E::NoDualEdge { .. } => self
+                .option("min-dual-edge", "--min-dual-edge 0.1 asks for angles of at most 84.3 degrees")
+                .map(str::to_owned),
             E::Overlap { .. } => {
                 let later = self.option("overlaps", "--overlaps later")?;
                 Some(format!("{later} takes the attribute of the later polygon"))
@@ -226,6 +229,7 @@ mod tests {
                 ends: [0, 2].map(Feature::Point),
                 distance: 1e-13,
             }),
+            E::NoDualEdge { ratio: 0.5 },
             E::Overlap { polygons: [0, 1], attributes: [1.0, 2.0], at: a, area: 1.0 },
             E::NotForGraphs { option: "a radius of the domain" },
             E::NotForGraphs { option: "the simple method" },

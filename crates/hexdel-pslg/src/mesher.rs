@@ -45,6 +45,9 @@ const GROWN_RADII: f64 = 1.5;
 /// came out.
 const MOST_LEFT: usize = 24;
 
+/// The upper bound that growth keeps, degrees.
+const RIGHT_DEG: f64 = 90.0;
+
 /// Meshes a planar straight-line graph.
 ///
 /// # Guarantees
@@ -124,7 +127,12 @@ fn run(
         return Err(PslgError::InvalidArea { area });
     }
     let (asked, kept) = (options.far, AngleBounds::EXTENDED);
-    if asked.min_deg() > kept.min_deg() || asked.max_deg() < kept.max_deg() {
+    // Upper bounds below right angles are left to the optimiser, which the paper's way goes without.
+    let least_upper = match options.method {
+        SegmentMethod::Paper => kept.max_deg(),
+        SegmentMethod::Conform => AngleBounds::LEAST_GRADED_MAX_DEG,
+    };
+    if asked.min_deg() > kept.min_deg() || asked.max_deg() < least_upper {
         return Err(PslgError::BoundsBeyondMethod { asked, kept });
     }
     if options.extent == Extent::Hull {
@@ -310,8 +318,10 @@ impl<'a> Mesher<'a> {
         self.deadline.note_first_mesh();
         count_rings(&mut net);
         let is_left = |t: u32| self.judge().is_out(&net, t) && !self.is_hopeless(&net, t);
-        // Growth that has spent its limit leaves too many to repair.
-        if left.iter().filter(|&&t| is_left(t)).count() > MOST_LEFT {
+        // Growth that has spent its limit leaves too many to repair; it knows no bound below right angles, so that
+        // what is past one says nothing.
+        let judged = self.options.near.max_deg() >= RIGHT_DEG;
+        if judged && left.iter().filter(|&&t| is_left(t)).count() > MOST_LEFT {
             return Ok(None);
         }
         // Removals begin with a mesh that keeps its bounds; where there is none, the grid may have one.

@@ -1,8 +1,10 @@
 //! Why points or a PSLG could not be meshed.
 
+use crate::dual_edges::MOST_DUAL_EDGE;
 use crate::size::SizeError;
 use crate::workers::MAX_THREADS;
 use hexdel_classify::DualError;
+use hexdel_geom::certificate::{DualCheck, max_angle_of_ratio};
 use hexdel_geom::{AngleBounds, Cancelled, Certificate, DVec2, DelaunayError, PointsError, TriMesh};
 use hexdel_optimize::OptimizeError;
 use hexdel_pslg::{PslgError, ValidateError};
@@ -91,6 +93,16 @@ pub enum Error {
     NoGrading {
         /// The bounds asked for.
         asked: AngleBounds,
+    },
+    /// Dual edges cannot be that long in a graded mesh, or the ratio is no positive number: see
+    /// [`Mesher::min_dual_edge`](crate::Mesher::min_dual_edge).
+    #[error(
+        "the ratio of dual edges to edges must be positive and at most {MOST_DUAL_EDGE}, got {ratio:?}{}",
+        angle_of(*ratio)
+    )]
+    NoDualEdge {
+        /// The ratio asked for.
+        ratio: f64,
     },
     /// The segments of a PSLG cross or overlap, or its arrays do not fit
     /// together.
@@ -192,6 +204,28 @@ pub enum Error {
         /// Its certificate, which does not hold.
         certificate: Box<Certificate>,
     },
+    /// The angles are within the bounds, but dual edges are shorter than the angles allow: one
+    /// of the two measures is wrong. This is a defect of the library.
+    #[error("{} of {} dual edges are shorter than {} of their edges", check.below, check.edges, check.min_ratio)]
+    DualEdges {
+        /// The mesh.
+        mesh: Box<TriMesh>,
+        /// What was found.
+        check: Box<DualCheck>,
+    },
+}
+
+/// Why a ratio is too large.
+fn angle_of(ratio: f64) -> String {
+    let most = AngleBounds::LEAST_GRADED_MAX_DEG;
+    if ratio > MOST_DUAL_EDGE {
+        let angle = max_angle_of_ratio(ratio);
+        format!(
+            ": angles would have to be at most {angle:.1} degrees, and no graded mesh has all below {most}"
+        )
+    } else {
+        String::new()
+    }
 }
 
 impl From<DualError> for Error {

@@ -45,6 +45,7 @@ struct Readme;
 struct Guide;
 
 mod compact;
+mod dual_edges;
 pub mod error;
 pub mod generate;
 mod graph;
@@ -69,6 +70,7 @@ pub use hexdel_optimize as optimize;
 pub use hexdel_pslg as pslg;
 pub use hexdel_refine as refine;
 
+pub use dual_edges::MOST_DUAL_EDGE;
 pub use error::Error;
 pub use graph::prepare::PreparedPslg;
 pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry, WarningEntry};

@@ -77,6 +77,7 @@ impl Method {
 pub struct Mesher {
     pub(crate) method: Method,
     pub(crate) bounds: Option<AngleBounds>,
+    pub(crate) min_dual_edge: Option<f64>,
     pub(crate) domain_radius: Option<f64>,
     /// Centre of the domain, if it is not that of the points.
     centre: Option<DVec2>,
@@ -327,12 +328,11 @@ impl Mesher {
     /// Refuses bounds that a method without optimisation does not keep.
     pub(crate) fn refuse_bounds_beyond(&self, method: Method) -> Result<(), Error> {
         let kept = method.bounds();
-        match self.bounds {
-            Some(asked) if method != Method::Compact && !method.keeps(asked) => {
-                Err(Error::BoundsBeyondMethod { asked, kept })
-            }
-            _ => Ok(()),
+        let asked = self.lowered(self.bounds.unwrap_or(kept));
+        if method != Method::Compact && !method.keeps(asked) {
+            return Err(Error::BoundsBeyondMethod { asked, kept });
         }
+        Ok(())
     }
 
     /// Works on as many threads as asked for.
@@ -346,8 +346,8 @@ impl Mesher {
     fn run(&self, points: &[DVec2], monitor: &dyn Monitor) -> Result<Triangulation, Error> {
         let time = Time::new(self.budget);
         self.graph.refuse_for_points()?;
-        let kept = self.method.bounds();
-        let bounds = self.bounds.unwrap_or(kept);
+        self.refuse_dual_edges()?;
+        let bounds = self.lowered(self.bounds.unwrap_or(self.method.bounds()));
         self.refuse_bounds_beyond(self.method)?;
         if !bounds.allow_grading() {
             return Err(Error::NoGrading { asked: bounds });
@@ -421,11 +421,16 @@ impl Mesher {
             done => done?,
         };
         let size_ratio = self.size_ratio(&begun.mesh)?;
+        let dual_edges = self.dual_edges(&begun.mesh, &[]);
+        if let Some(check) = dual_edges.as_ref().filter(|check| !check.holds()) {
+            return Err(Error::DualEdges { mesh: Box::new(begun.mesh), check: Box::new(check.clone()) });
+        }
         let total = clock.elapsed();
         let of_input = input.set.site_of_input().iter().map(|&site| begun.vertex_of_site[site as usize]);
         Ok(Some(Triangulation {
             vertex_of_input: of_input.collect(),
             certificate,
+            dual_edges,
             size_ratio,
             method: self.method,
             start,

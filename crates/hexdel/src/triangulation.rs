@@ -2,6 +2,7 @@
 
 use crate::mesher::Method;
 use crate::start::{Gridded, Start};
+use hexdel_geom::certificate::DualCheck;
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, Voronoi, VoronoiSummary};
 use serde::Serialize;
 
@@ -14,6 +15,9 @@ pub struct Triangulation {
     pub vertex_of_input: Vec<VertexId>,
     /// What the mesh was found to keep.
     pub certificate: Certificate,
+    /// What was found of the edges of the Voronoi dual, if a
+    /// [bound](crate::Mesher::min_dual_edge) was given: all keep it.
+    pub dual_edges: Option<DualCheck>,
     /// The longest edge over the length wanted there, if any was: at most 1 but
     /// for [`SIZE_TOLERANCE`](hexdel_optimize::SIZE_TOLERANCE).
     pub size_ratio: Option<f64>,
@@ -70,6 +74,9 @@ pub struct Report<'a> {
     pub certificate: &'a Certificate,
     /// What its Voronoi dual is like.
     pub dual: Option<VoronoiSummary>,
+    /// What was found of its edges, if a bound was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dual_edges: Option<&'a DualCheck>,
     /// The longest edge over the length wanted there, if any was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size_ratio: Option<f64>,
@@ -111,6 +118,7 @@ impl Triangulation {
             budget_spent: self.budget_spent,
             certificate: &self.certificate,
             dual: Voronoi::new(&self.mesh).ok().map(|dual| dual.summary()),
+            dual_edges: self.dual_edges.as_ref(),
             size_ratio: self.size_ratio,
             max_level: self.max_level,
             domain_radius: self.patch.radius,

@@ -105,6 +105,7 @@ fn fault_of(error: &Error) -> Fault {
         Error::InvalidRadius { .. } => Fault::new("domain"),
         Error::BoundsBeyondMethod { .. } => Fault::new("bounds"),
         Error::NoGrading { .. } => Fault::new("no_grading"),
+        Error::NoDualEdge { .. } => Fault::new("dual_edge"),
         Error::Overlap { at, .. } => Fault::new("overlaps").at(*at),
         Error::Segments(error) => fault_of_segments(error),
         Error::Pslg(error) => fault_of_graph(error),
@@ -114,7 +115,7 @@ fn fault_of(error: &Error) -> Fault {
         Error::Size(error) => fault_of_size(error),
         Error::Cancelled(_) => Fault::new("cancelled"),
         Error::Unreached { .. } => Fault::new("unreached"),
-        Error::NotCertified { .. } => Fault::new("not_certified"),
+        Error::NotCertified { .. } | Error::DualEdges { .. } => Fault::new("not_certified"),
         Error::Delaunay(_) | Error::Optimize(_) | Error::Refine(_) | Error::Dual(_) => Fault::new("internal"),
         _ => Fault::new("other"),
     }

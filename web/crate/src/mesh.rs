@@ -185,10 +185,17 @@ impl RawMesh {
             let entry = |e| ExceptionEntry::new(e, graph);
             list.iter().map(entry).map(|e| (e.to_string(), e.at)).collect()
         };
+        let mut failed = entries(&made.failed, &made.graph);
+        if let Some(found) = made.dual_edges.as_ref().filter(|found| !found.holds())
+            && let Some(worst) = found.worst
+        {
+            let text = format!("{} dual edges are shorter than {} of their edges", found.below, found.min_ratio);
+            failed.push((text, worst.ends[0].midpoint(worst.ends[1])));
+        }
         let repairs = made.repairs.iter().flat_map(|report| &report.repairs).map(RepairEntry::new);
         let warnings = made.warnings.iter().map(|w| (w.to_string(), w.at()));
         Record::default()
-            .with("failed", noted(entries(&made.failed, &made.graph)))
+            .with("failed", noted(failed))
             .with("exempt", noted(entries(&made.exempt, &made.graph)))
             .with("repairs", noted(repairs.map(|r| (r.to_string(), r.at)).collect()))
             .with("warnings", noted(warnings.collect()))

@@ -15,6 +15,7 @@ pub(crate) struct Options {
     effort: EffortName,
     min_angle: Option<f64>,
     max_angle: Option<f64>,
+    min_dual_edge: Option<f64>,
     max_area: Option<f64>,
     /// Seconds.
     budget: Option<f64>,
@@ -120,6 +121,9 @@ impl Options {
             if of_graph {
                 mesher = mesher.near_bounds(self.bounds([30.0, 90.0])?);
             }
+        }
+        if let Some(ratio) = self.min_dual_edge {
+            mesher = mesher.min_dual_edge(ratio);
         }
         if let Some(coarsening) = self.coarsening {
             mesher = mesher.coarsening(coarsening);

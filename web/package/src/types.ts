@@ -46,6 +46,8 @@ export interface Options {
   readonly minAngle?: number | undefined;
   /** The largest angle allowed, degrees. */
   readonly maxAngle?: number | undefined;
+  /** The shortest edge of the Voronoi dual over the edge that it crosses, up to 0.3249. */
+  readonly minDualEdge?: number | undefined;
   /** The largest area of a triangle. */
   readonly maxArea?: number | undefined;
   /** How long edges may be: everywhere, or by place. */

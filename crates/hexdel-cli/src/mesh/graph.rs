@@ -1,5 +1,6 @@
 //! PSLGs of points and segments, and points in other domains than a hexagon.
 
+use super::dual_edges::dual_edges_line;
 use super::{Args, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, write};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
@@ -164,9 +165,10 @@ impl Finished<'_> {
         let spent = if made.budget_spent { "budget     spent before optimisation ended\n" } else { "" };
         let _ = write!(
             text,
-            "{}  {}\n{spent}seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
+            "{}  {}\n{}{spent}seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
             if report.holds { "certified" } else { "NOT MET  " },
             promises(made),
+            dual_edges_line(made.dual_edges.as_ref()),
             made.seconds.total,
             made.seconds.refine,
             made.seconds.extract,

@@ -1,5 +1,6 @@
 //! `hexdel mesh`: points or a PSLG in, a certified mesh out.
 
+mod dual_edges;
 mod graph;
 mod points;
 
@@ -32,7 +33,7 @@ pub(crate) use graph::{Finished, failure, place, warn_of_repairs, warn_of_warnin
     after_help = "\
 Input: .node .poly .csv .tsv .xyz .txt .pts .geojson .wkt .shp .2dm .14 .json .ron, - with --format
 Output: .ele (with .node) .edge .neigh .poly .vtu .vtk .msh .obj .off .mesh .stl .2dm .14 .nc
-        .geojson .wkt .json .ron .svg .png
+        .geojson .wkt .json .ron .svg .png    Options not listed: --overlaps
 Example: hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
 )]
 pub(crate) struct Args {
@@ -48,7 +49,7 @@ pub(crate) struct Args {
     /// hexagon (--domain-radius R), hull, box, inside [default: by the input]
     #[arg(long, value_enum, hide_possible_values = true)]
     domain: Option<DomainName>,
-    /// templates, simple or compact; for segments --pslg paper
+    /// templates, simple, compact; for segments --pslg paper
     #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
     /// How hard compact optimises: fast, standard or best
@@ -63,6 +64,9 @@ pub(crate) struct Args {
     /// Largest angle allowed [default: the method's; 90 at segments]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     max_angle: Option<f64>,
+    /// Shortest Voronoi edge over the edge it crosses: angles up to acot(R)
+    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
+    min_dual_edge: Option<f64>,
     /// Largest area of a triangle; for a PSLG, within the circle around it
     #[arg(short = 'a', long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
     max_area: Option<f64>,
@@ -78,8 +82,7 @@ pub(crate) struct Args {
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
     repair: Option<Option<f64>>,
     /// If polygons overlap: later (takes its attribute, and warns) or refuse
-    #[arg(long, value_enum, value_name = "WAY", hide_possible_values = true, default_value = "later")]
-    #[arg(hide_default_value = true)]
+    #[arg(long, value_enum, value_name = "WAY", hide = true, default_value = "later")]
     overlaps: OverlapsName,
     /// Segment method: conform, or paper (keeps no bounds at segments)
     #[arg(long, value_enum, value_name = "WAY", hide = true)]
@@ -276,6 +279,9 @@ impl Args {
         }
         if let Some(radius) = self.domain_radius {
             mesher = mesher.domain_radius(radius);
+        }
+        if let Some(ratio) = self.min_dual_edge {
+            mesher = mesher.min_dual_edge(ratio);
         }
         if let Some(threads) = self.threads {
             mesher = mesher.threads(usize::from(threads));

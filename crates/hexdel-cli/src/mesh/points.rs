@@ -1,5 +1,6 @@
 //! Points in a hexagon.
 
+use super::dual_edges::dual_edges_line;
 use super::{
     Args, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, warn_ignored,
     write,
@@ -110,7 +111,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
          angles     {:.4} to {:.4} degrees\n\
          shape      aspect ratio at most {:.5}, shortest edge {}{}\n\
          certified  angles within {:.4} to {}, Delaunay, one disk, every point a vertex{}\n\
-         {spent}\
+         {}{spent}\
          seconds    {:.3} = refine {:.3} + extract {:.3} + certify {:.3}\n",
         certificate.inputs,
         columns_line(file),
@@ -127,6 +128,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
         certificate.bounds.min_deg(),
         certificate.bounds.max_deg(),
         limited(certificate),
+        dual_edges_line(made.dual_edges.as_ref()),
         made.seconds.total,
         made.seconds.refine,
         made.seconds.extract,

@@ -252,6 +252,9 @@ fn angles_may_be_asked_for() {
         ("--method compact --effort none", 2, "possible values"),
         ("--min-angle 51.5", 2, "the lower bound may be at most 51.4"),
         ("--max-angle 71", 2, "the upper bound at least 72"),
+        ("--min-dual-edge 0.4", 2, "no graded mesh has all below 72"),
+        ("--min-dual-edge 0", 2, "must be a positive number"),
+        ("--min-dual-edge 0.1 --method templates", 2, "the method cannot keep"),
         // Two points of these may be had, five may not.
         ("--method compact --min-angle 51.3 --max-angle 72.1", 1, "did not reach"),
     ] {
@@ -261,4 +264,38 @@ fn angles_may_be_asked_for() {
         assert!(run.err.contains(message), "{arguments}: {}", run.err);
     }
     assert!(!bench.names().iter().any(|name| name.starts_with("x.")));
+}
+
+#[test]
+fn dual_edges_may_be_asked_for() {
+    let bench = Bench::new();
+    for input in [fixture("points/plane100.node"), fixture("graphs/airfoil.poly")] {
+        let run = bench.run(&format!("mesh {input} --min-dual-edge 0.1 --report r.json -o m.ele"));
+        run.fine();
+        assert!(
+            run.out.contains("dual edges at least 0.1") && run.out.contains("asked for 0.1\n"),
+            "{}",
+            run.out
+        );
+        let report = bench.json("r.json");
+        let found = &report["dual_edges"];
+        assert_eq!((&found["below"], &found["min_ratio"]), (&0.into(), &0.1.into()));
+        assert!(found["worst"]["ratio"].as_f64() >= Some(0.1 - 1e-9), "{found}");
+        // On the boundary half of a dual edge is there.
+        assert!(report["dual"]["min_weight"].as_f64() >= Some(0.05 - 1e-9));
+        bench.run(&format!("check m.ele --input {input} --max-angle 84.2895 --min-angle 30")).fine();
+        bench.run(&format!("mesh {input} -q --max-angle 85 --report r.json")).fine();
+        assert!(bench.json("r.json")["max_angle_deg"].as_f64() <= Some(85.0 + 1e-8));
+    }
+}
+
+/// Without time to optimise they are as they are, and the worst is named.
+#[test]
+fn dual_edges_that_are_not_reached_fail() {
+    let bench = Bench::new();
+    let input = fixture("graphs/letters.poly");
+    let run = bench.run(&format!("mesh {input} --min-dual-edge 0.3 --budget 0 --report r.json -o m.ele"));
+    assert_eq!(run.code, 3, "{}", run.err);
+    assert!(run.out.contains(" FAILED: shorter than 0.3 of their edges"), "{}", run.out);
+    assert!(bench.json("r.json")["dual_edges"]["below"].as_u64() > Some(0));
 }

@@ -46,6 +46,7 @@
 //! wrongly: a counter-clockwise disk whose boundary crosses itself, like a
 //! turn of a spiral staircase seen from above, passes.
 
+mod duals;
 mod inputs;
 mod local;
 mod places;
@@ -59,6 +60,7 @@ use crate::bounds::AngleBounds;
 use crate::mesh::{TriMesh, TriangleId, VertexId};
 use crate::scale::{max_abs, scale_to};
 
+pub use duals::{DualCheck, DualEdge, check_dual_edges, max_angle_of_ratio};
 pub use local::{keeps_bounds, keeps_bounds_at};
 pub use places::{
     BrokenPromise, FAR_EDGES, PlaceCheck, Promise, Promises, SIZE_TOLERANCE, check_promises, features,

@@ -383,7 +383,7 @@ pub(crate) fn check_angles_at(corners: [DVec2; 3], bounds: AngleBounds, lower: [
 
 /// How far the rounding of the corners may have moved the angle at `a`; the
 /// derivation is in the docs of the certificate.
-fn rounding_slack_deg([a, b, c]: [DVec2; 3]) -> f64 {
+pub(super) fn rounding_slack_deg([a, b, c]: [DVec2; 3]) -> f64 {
     let (ab, ac, bc) = (a.distance(b), a.distance(c), b.distance(c));
     let turn = displacement(b) / ab + displacement(c) / ac + displacement(a) * bc / (ab * ac);
     (ROUNDING_FACTOR * turn).to_degrees()

@@ -18,7 +18,9 @@ use crate::mesher::{Mesher, Method};
 use crate::placement::finest_spacing;
 use crate::size::SizeError;
 use crate::sized;
-use hexdel_geom::{AngleBounds, DVec2, Monitor, Phase, Pslg, Unwatched, smallest_enclosing_circle};
+use hexdel_geom::{
+    AngleBounds, DVec2, Monitor, Phase, Pslg, TriangleId, Unwatched, smallest_enclosing_circle,
+};
 use hexdel_pslg::{Extent, Options, PslgError, PslgMesh, SegmentMethod, Validated, mesh, mesh_sized};
 use prepare::Prepared;
 pub(crate) use repair::Names;
@@ -329,6 +331,7 @@ impl Mesher {
 
     fn run_pslg(&self, pslg: &Pslg, monitor: &dyn Monitor) -> Result<PslgTriangulation, Error> {
         self.refuse_for_graphs()?;
+        self.refuse_dual_edges()?;
         let watch = Stopwatch::new(monitor);
         let began = Instant::now();
         let Prepared { repaired, validated, domain, warnings } = self.prepare(pslg)?;
@@ -340,8 +343,8 @@ impl Mesher {
         if points_alone && self.graph.near.is_none() && self.bounds.is_none() {
             options.near = options.far;
         }
-        if !options.near.allow_grading() {
-            return Err(Error::NoGrading { asked: options.near });
+        if let Some(&asked) = [options.near, options.far].iter().find(|bounds| !bounds.allow_grading()) {
+            return Err(Error::NoGrading { asked });
         }
         options.budget = self.budget.map(|budget| budget.saturating_sub(began.elapsed()));
         let mut made =
@@ -354,10 +357,12 @@ impl Mesher {
         let input = Meshed { graph, validated: &validated, domain, size: self.size.as_ref() };
         let places = verify::places(&mut made, &segments, &input, &options);
         let size_ratio = self.size.as_ref().map(|size| sized::worst(&made.mesh, size).0);
+        let excused: Vec<TriangleId> = made.exempt.iter().map(|exempt| exempt.triangle).collect();
+        let dual_edges = self.dual_edges(&made.mesh, &excused);
         let total = made.mesh.triangles.len() as u64;
         watch.progress(Phase::Certify, total, total);
         let made = PslgTriangulation::new(made, segments, repaired, domain, watch.seconds());
-        Ok(PslgTriangulation { warnings, size_ratio, far_bounds: options.far, places, ..made })
+        Ok(PslgTriangulation { warnings, size_ratio, dual_edges, far_bounds: options.far, places, ..made })
     }
 
     fn mesh_of_graph(
@@ -402,6 +407,7 @@ impl Mesher {
         if let Some(near) = self.graph.near {
             options.near = near;
         }
+        (options.near, options.far) = (self.lowered(options.near), self.lowered(options.far));
         options.max_area = self.graph.max_area;
         options.budget = self.budget;
         options

@@ -3,6 +3,7 @@
 use super::result::PslgTriangulation;
 use super::warning::Warning;
 use crate::triangulation::Seconds;
+use hexdel_geom::certificate::DualCheck;
 use hexdel_geom::{AngleBounds, Certificate, DVec2, Pslg, Voronoi, VoronoiSummary};
 use hexdel_pslg::{Exception, Reason, Repair, SegmentMethod};
 use serde::Serialize;
@@ -32,6 +33,9 @@ pub struct PslgReport<'a> {
     /// What its Voronoi dual is like; nothing if the mesh touches itself in a
     /// point.
     pub dual: Option<VoronoiSummary>,
+    /// What was found of its edges, if a bound was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dual_edges: Option<&'a DualCheck>,
     /// How many segments there are.
     pub segments: usize,
     /// How many edges they consist of.
@@ -136,6 +140,7 @@ impl<'a> PslgReport<'a> {
             far_triangles: made.places.far,
             far_min_angle_deg: made.places.far_min_deg,
             dual: Voronoi::new(&made.mesh).ok().map(|dual| dual.summary()),
+            dual_edges: made.dual_edges.as_ref(),
             segments: made.graph.segments.len(),
             segment_edges: made.edges_of_segment.iter().sum(),
             edges_of_segment: &made.edges_of_segment,

@@ -5,7 +5,7 @@ use super::repair::Repaired;
 use super::report::PslgReport;
 use super::warning::Warning;
 use crate::triangulation::Seconds;
-use hexdel_geom::certificate::PlaceCheck;
+use hexdel_geom::certificate::{DualCheck, PlaceCheck};
 use hexdel_geom::{AngleBounds, Certificate, Pslg, SegmentCheck, TriMesh, VertexId};
 use hexdel_pslg::{Exception, PslgMesh, RepairReport, SegmentEdge, SegmentMethod, holds};
 
@@ -56,6 +56,10 @@ pub struct PslgTriangulation {
     /// The longest edge over the length wanted, if a size was given; above
     /// 1 + 1e-9 only if some triangles [`failed`](Self::failed) for that.
     pub size_ratio: Option<f64>,
+    /// What was found of the edges of the Voronoi dual, if a
+    /// [bound](crate::Mesher::min_dual_edge) was given. Edges of exempt triangles are excused, all others below the
+    /// bound are failures.
+    pub dual_edges: Option<DualCheck>,
     /// Whether segments are unions of edges, checked from scratch piece by piece
     /// between the points on them; pieces in holes and outside of the domain are
     /// left out.
@@ -102,6 +106,7 @@ impl PslgTriangulation {
             failed: made.failed,
             certificate: made.certificate,
             size_ratio: None,
+            dual_edges: None,
             far_bounds: AngleBounds::EXTENDED,
             places: PlaceCheck::default(),
             segments,
@@ -128,7 +133,9 @@ impl PslgTriangulation {
     /// # Ok::<(), hexdel::Error>(())
     /// ```
     pub fn holds(&self) -> bool {
-        holds(self.method, &self.certificate, &self.failed) && self.segments.missing.is_empty()
+        holds(self.method, &self.certificate, &self.failed)
+            && self.segments.missing.is_empty()
+            && self.dual_edges.as_ref().is_none_or(DualCheck::holds)
     }
 
     /// The vertex of each point given, repaired or not; `None` for a point in a
