@@ -170,6 +170,13 @@ fn run(
     };
     let mut left = mesher.left(&best);
     while !left.elsewhere.is_empty() && retries < options.retries && !deadline.is_over() {
+        // Smaller triangles next time are for what this does not mend.
+        if let Some(mended) =
+            mesher.divided(&best, monitor)?.filter(|net| mesher.left(net).elsewhere.is_empty())
+        {
+            best = mended;
+            break;
+        }
         let ringed = mesher.note(&best, &left.elsewhere, &mut wishes);
         if ringed > FEW_BESIDE_RINGS {
             break;
@@ -195,6 +202,8 @@ fn run(
         }
     }
     check(monitor)?;
+    best = mesher.divided(&best, monitor)?.unwrap_or(best);
+    left = mesher.left(&best);
     let best = grown.filter(|grown| mesher.left(grown).score() < left.score()).unwrap_or(best);
     mesher.finished(best, retries, monitor)
 }
@@ -299,6 +308,27 @@ impl<'a> Mesher<'a> {
         let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
         optimise(&mut net, self.judge(), &excused, self.deadline, monitor)?;
         self.compacted(net, monitor)
+    }
+
+    /// A better mesh where triangles are too large or too long, if upper bounds are below right angles; none where
+    /// nothing helps. Triangles are divided once in each run of the optimiser, and few of them while a mesh made for
+    /// right angles is far from its bounds, so that more runs divide more.
+    fn divided(&self, net: &Net, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
+        let mut better: Option<Net> = None;
+        if self.limits.is_none() || self.options.near.max_deg() >= RIGHT_DEG {
+            return Ok(better);
+        }
+        let mut left = self.left(net);
+        while !left.elsewhere.is_empty() && !self.deadline.is_over() {
+            let before = better.as_ref().unwrap_or(net).clone();
+            let next = compact(before, &self.kept(false), Effort::Repair, monitor)?;
+            let of_next = self.left(&next);
+            if of_next.score() >= left.score() {
+                break;
+            }
+            (left, better) = (of_next, Some(next));
+        }
+        Ok(better)
     }
 
     /// The mesh that grows out of the input, optimised; none where growth does not know what is asked for, or time

@@ -2,6 +2,7 @@
 
 use super::PointId;
 use crate::error::Error;
+use crate::mesher::Mesher;
 use crate::placement::MAX_COORDINATE;
 use crate::size::SizeError;
 use hexdel_geom::{Certificate, DVec2};
@@ -137,4 +138,12 @@ pub enum SessionError {
         /// What its certificate says.
         certificate: Box<Certificate>,
     },
+}
+
+/// A bound on dual edges is certified on whole meshes alone.
+pub(super) fn refuse_dual_edges(mesher: &Mesher) -> Result<(), SessionError> {
+    match mesher.min_dual_edge {
+        Some(_) => Err(SessionError::NotForSessions { option: "a bound on dual edges" }),
+        None => Ok(()),
+    }
 }

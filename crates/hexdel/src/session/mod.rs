@@ -579,16 +579,8 @@ fn compact(mesher: &Mesher) -> Result<Mesher, SessionError> {
     if mesher.method == Method::Simple {
         return Err(SessionError::NotForSessions { option: "the simple method" });
     }
-    refuse_dual_edges(mesher)?;
+    error::refuse_dual_edges(mesher)?;
     Ok(mesher.clone().method(Method::Compact))
-}
-
-/// A bound on dual edges is certified on whole meshes alone.
-fn refuse_dual_edges(mesher: &Mesher) -> Result<(), SessionError> {
-    match mesher.min_dual_edge {
-        Some(_) => Err(SessionError::NotForSessions { option: "a bound on dual edges" }),
-        None => Ok(()),
-    }
 }
 
 /// Why a point was not put in.

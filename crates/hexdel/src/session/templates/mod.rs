@@ -129,7 +129,7 @@ impl TemplateSession {
     /// earlier point, [`SessionError::NotForSessions`] for options that it does not keep.
     pub fn new(points: &[DVec2], mesher: &Mesher) -> Result<Self, SessionError> {
         mesher.graph.refuse_for_points()?;
-        super::refuse_dual_edges(mesher)?;
+        super::error::refuse_dual_edges(mesher)?;
         mesher.refuse_bounds_beyond(Method::Templates)?;
         if mesher.without_coarsening {
             return Err(SessionError::NotForSessions { option: "meshing without coarsening" });
