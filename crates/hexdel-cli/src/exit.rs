@@ -64,6 +64,8 @@ pub(crate) enum Failure {
     Stdin(io::Error),
     #[error("{file}: {source}")]
     Size { file: String, source: hexdel::SizeError },
+    #[error("{file}: {source}")]
+    Projection { file: String, source: hexdel_io::ProjectionError },
     #[error("{failed} commands failed")]
     Commands { failed: usize },
     #[error("{option} has no effect: {why}")]

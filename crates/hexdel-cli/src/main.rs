@@ -19,6 +19,7 @@ mod input;
 mod manual;
 mod mesh;
 mod outputs;
+mod plane;
 mod plot;
 mod progress;
 mod remedy;

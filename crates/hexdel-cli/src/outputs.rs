@@ -90,6 +90,11 @@ impl Outputs {
         }
     }
 
+    /// What the files are called.
+    pub(crate) fn paths(&self) -> Vec<&Path> {
+        self.files.iter().map(|(_, path)| path.as_path()).collect()
+    }
+
     /// Writes to standard output what goes there.
     pub(crate) fn write_stdout(
         &self,

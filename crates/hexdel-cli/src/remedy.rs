@@ -1,6 +1,7 @@
 //! The way out of an error: the option, with a value, that would cure it.
 
 use crate::exit::Failure;
+use crate::plane;
 use clap::Command;
 use hexdel::pslg::{Feature, PslgError, ValidateError};
 use hexdel_io::{MeshFormat, PointFormat, ReadError, WriteError};
@@ -21,6 +22,7 @@ pub(crate) fn of(failure: &Failure, command: Option<&Command>) -> Option<String>
         }
         Failure::NoFormat { .. } => of.has("format").then(|| "name it with --format".to_owned()),
         Failure::Mesh { source, file, .. } => of.meshing(source, file),
+        Failure::Projection { source, .. } => plane::remedy(source).map(str::to_owned),
         _ => None,
     }
 }

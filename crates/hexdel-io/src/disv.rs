@@ -15,7 +15,7 @@ use crate::view::MeshView;
 
 /// Writes the package.
 pub(crate) fn write_disv(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
-    let cells = Cells::of(view.mesh, dual);
+    let cells = Cells::of(view, dual);
     let mut text = TextWriter::new(out);
     text.text(
         "# Voronoi cells of a triangle mesh. There is one layer, from 0 to 1: replace it by your own.\n",

@@ -10,7 +10,7 @@
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use hexdel_geom::{DVec2, TriMesh, VertexId, Voronoi};
+use hexdel_geom::{DVec2, VertexId, Voronoi};
 use rustc_hash::FxHashMap;
 
 use crate::atomic::Draft;
@@ -25,7 +25,7 @@ use crate::{disv, mpas, polygons_out, ugrid};
 const VTK_POLYGON: u8 = 7;
 
 /// Writes the dual of a mesh in the format that the extension stands for. Of the view, the mesh and its
-/// coordinate system are taken.
+/// coordinate system are taken; of a [`Geographic`](crate::Geographic) one the dual is that of the plane.
 ///
 /// A `.v.node` or `.v.edge` path stands for the pair of both.
 ///
@@ -60,7 +60,7 @@ pub fn write_dual(path: impl AsRef<Path>, view: &MeshView<'_>, dual: &Voronoi<'_
         DualFormat::Voronoi => {
             let mut nodes = Draft::create(&path.with_extension("node"))?;
             let mut edges = Draft::create(&path.with_extension("edge"))?;
-            nodes.write(|out| write_node(out, dual))?;
+            nodes.write(|out| write_node(out, view, dual))?;
             edges.write(|out| write_edge(out, view, dual))?;
             nodes.publish()?;
             return edges.publish();
@@ -86,12 +86,12 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    pub(crate) fn of(mesh: &TriMesh, dual: &Voronoi<'_>) -> Self {
+    pub(crate) fn of(view: &MeshView<'_>, dual: &Voronoi<'_>) -> Self {
         let mut cells =
             Self { corners: Vec::new(), rings: Vec::new(), ends: Vec::new(), vertices: Vec::new() };
         // Only looked up, never iterated.
         let mut known = FxHashMap::default();
-        for vertex in 0..mesh.vertices.len() {
+        for vertex in 0..view.mesh.vertices.len() {
             let ring = dual.cell(VertexId::new(vertex));
             if ring.is_empty() {
                 continue;
@@ -106,6 +106,7 @@ impl Cells {
             cells.ends.push(cells.rings.len() as i64);
             cells.vertices.push(vertex as i64);
         }
+        cells.corners.iter_mut().for_each(|corner| *corner = view.placed(*corner));
         cells
     }
 
@@ -119,7 +120,7 @@ impl Cells {
 }
 
 fn write_vtu(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
-    let cells = Cells::of(view.mesh, dual);
+    let cells = Cells::of(view, dual);
     let count = cells.vertices.len();
     let mut out = BufWriter::with_capacity(1 << 16, out);
     vtu::begin(&mut out, &cells.corners, count)?;
@@ -140,10 +141,10 @@ fn integers(out: &mut dyn Write, name: &str, values: &[i64]) -> io::Result<()> {
     array(out, &attributes, values.len(), values.iter().map(|i| i.to_le_bytes()))
 }
 
-fn write_node(out: &mut dyn Write, dual: &Voronoi<'_>) -> io::Result<()> {
+fn write_node(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     text.integer(dual.circumcentres.len()).text(" 2 0 0\n");
-    for (i, p) in dual.circumcentres.iter().enumerate() {
+    for (i, p) in dual.circumcentres.iter().map(|&p| view.placed(p)).enumerate() {
         text.integer(i).text(" ").number(p.x).text(" ").number(p.y);
         text.text("\n").breathe()?;
     }

@@ -40,7 +40,8 @@
 //! [`write_points_to`], [`read_mesh_from`] and [`write_mesh_to`] with the format named, or
 //! [`write_mesh_pair_to`].
 //!
-//! [`read_raster`] reads rasters (`.asc`), [`read_sizes`] tables of points with sizes.
+//! [`read_raster`] reads rasters (`.asc`), [`read_sizes`] tables of points with sizes. With the feature `projection`,
+//! `Projection` takes longitudes and latitudes to a plane and back, keeping angles.
 //!
 //! Readers trust nothing: every malformed file is a [`ReadError`] with file and
 //! line, and memory grows with what a file holds, not with what it claims. Lines
@@ -93,6 +94,8 @@ mod picture;
 mod png;
 mod point_file;
 mod polygons_out;
+#[cfg(feature = "projection")]
+mod projection;
 mod promised;
 mod read;
 mod scene;
@@ -131,8 +134,10 @@ pub use format::{DualFormat, MeshFormat, PointFormat};
 pub use mend::ReadWarning;
 pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
 pub use point_file::{PointFile, PointReader, points_beside, read_points, read_points_from};
+#[cfg(feature = "projection")]
+pub use projection::{Projection, ProjectionError, ProjectionKind};
 pub use promised::{NotPromised, Promised, PromisedDomain};
 pub use read::{holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair};
 pub use sizes::{parse_sizes, read_sizes};
-pub use view::{MarkedEdge, MeshView};
+pub use view::{Geographic, MarkedEdge, MeshView};
 pub use write::{write_mesh, write_mesh_pair_to, write_mesh_to, write_points, write_points_to};

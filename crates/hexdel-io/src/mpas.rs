@@ -6,7 +6,7 @@
 
 use std::io::{self, Write};
 
-use hexdel_geom::Voronoi;
+use hexdel_geom::{DVec2, Voronoi};
 
 use crate::netcdf::{self, Attribute, Values, Variable};
 use crate::topology::counter_clockwise;
@@ -19,6 +19,7 @@ const DEGREE: &str = "vertexDegree";
 /// Writes a mesh that has triangles.
 pub(crate) fn write_mpas(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
     let mesh = view.mesh;
+    let centres: Vec<DVec2> = dual.circumcentres.iter().map(|&p| view.placed(p)).collect();
     let dimensions = [(CELL, mesh.vertices.len()), (VERTEX, mesh.triangles.len()), (DEGREE, 3)];
     let attributes = [
         ("on_a_sphere", Attribute::Text("NO")),
@@ -33,8 +34,8 @@ pub(crate) fn write_mpas(out: &mut dyn Write, view: &MeshView<'_>, dual: &Vorono
         variable("xCell", &[CELL], Values::numbers(mesh.vertices.iter().map(|p| p.x))),
         variable("yCell", &[CELL], Values::numbers(mesh.vertices.iter().map(|p| p.y))),
         variable("zCell", &[CELL], zeros(mesh.vertices.len())),
-        variable("xVertex", &[VERTEX], Values::numbers(dual.circumcentres.iter().map(|p| p.x))),
-        variable("yVertex", &[VERTEX], Values::numbers(dual.circumcentres.iter().map(|p| p.y))),
+        variable("xVertex", &[VERTEX], Values::numbers(centres.iter().map(|p| p.x))),
+        variable("yVertex", &[VERTEX], Values::numbers(centres.iter().map(|p| p.y))),
         variable("zVertex", &[VERTEX], zeros(mesh.triangles.len())),
         variable("cellsOnVertex", &[VERTEX, DEGREE], Values::integers(corners)),
         variable("meshDensity", &[CELL], Values::numbers(std::iter::repeat_n(1.0, mesh.vertices.len()))),

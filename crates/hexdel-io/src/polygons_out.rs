@@ -9,7 +9,7 @@
 
 use std::io::{self, Write};
 
-use hexdel_geom::{DVec2, TriMesh, TriangleId, VertexId, Voronoi};
+use hexdel_geom::{DVec2, TriangleId, VertexId, Voronoi};
 
 use crate::angles::angle_range_deg;
 use crate::text::TextWriter;
@@ -25,7 +25,7 @@ pub(crate) fn write_geojson(out: &mut dyn Write, view: &MeshView<'_>) -> io::Res
     let mut text = TextWriter::new(out);
     begin_features(&mut text, view.epsg);
     text.rows(0..view.mesh.triangles.len(), |text, t| {
-        let [a, b, c] = view.mesh.corners(TriangleId::new(t));
+        let [a, b, c] = view.measured(TriangleId::new(t));
         let [min, max] = angle_range_deg([a, b, c]);
         text.text("{\"type\": \"Feature\", \"id\": ").integer(t).text(", \"properties\": {");
         if let Some(regions) = view.regions {
@@ -47,7 +47,7 @@ pub(crate) fn write_dual_geojson(
 ) -> io::Result<()> {
     let mut text = TextWriter::new(out);
     begin_features(&mut text, view.epsg);
-    text.rows(cells(view.mesh, dual), |text, (vertex, ring)| {
+    text.rows(cells(view, dual), |text, (vertex, ring)| {
         text.text("{\"type\": \"Feature\", \"id\": ").integer(vertex);
         text.text(", \"properties\": {\"vertex\": ").integer(vertex).text(", ");
         property(text, "area", dual.areas[vertex]);
@@ -68,7 +68,7 @@ pub(crate) fn write_wkt(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<
 /// Writes the cells, each as a `POLYGON` on a line of its own.
 pub(crate) fn write_dual_wkt(out: &mut dyn Write, view: &MeshView<'_>, dual: &Voronoi<'_>) -> io::Result<()> {
     let mut text = TextWriter::new(out);
-    for (_, ring) in cells(view.mesh, dual) {
+    for (_, ring) in cells(view, dual) {
         polygon(&mut text, &ring)?;
     }
     text.finish()
@@ -92,9 +92,11 @@ fn triangle(view: &MeshView<'_>, t: usize) -> [Corner; 3] {
 }
 
 /// The vertices that have a cell, with its corners.
-fn cells(mesh: &TriMesh, dual: &Voronoi<'_>) -> impl Iterator<Item = (usize, Vec<Corner>)> {
-    let cell = |v| dual.cell(VertexId::new(v)).into_iter().map(|p| (p, None)).collect();
-    (0..mesh.vertices.len()).map(move |v| (v, cell(v))).filter(|(_, ring): &(_, Vec<_>)| !ring.is_empty())
+fn cells(view: &MeshView<'_>, dual: &Voronoi<'_>) -> impl Iterator<Item = (usize, Vec<Corner>)> {
+    let cell = |v| dual.cell(VertexId::new(v)).into_iter().map(|p| (view.placed(p), None)).collect();
+    (0..view.mesh.vertices.len())
+        .map(move |v| (v, cell(v)))
+        .filter(|(_, ring): &(_, Vec<_>)| !ring.is_empty())
 }
 
 /// Writes a property, which is null if JSON has no such number.

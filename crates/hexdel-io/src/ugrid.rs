@@ -6,7 +6,7 @@
 //! `mesh2d_node_input_index` (-1 for Steiner points), `mesh2d_edge_marker` and
 //! `mesh2d_face_region`; of cells `mesh2d_face_vertex` and `mesh2d_face_area`, with the vertex
 //! as the centre of the face. A coordinate system is the grid mapping `projected_coordinate_system`, which
-//! knows it by its number.
+//! knows it by its number or by PROJ's parameters; that of longitudes and latitudes is `wgs84`.
 
 use std::io::{self, Write};
 
@@ -26,6 +26,12 @@ const TWO: &str = "Two";
 
 /// The variable that names the coordinate system, as `Delft3D` and QGIS know it.
 const SYSTEM: &str = "projected_coordinate_system";
+
+/// The same of longitudes and latitudes.
+const DEGREES: &str = "wgs84";
+
+/// The number of WGS 84 in the register of EPSG.
+const WGS84: u16 = 4326;
 
 /// The corner of a face that has fewer than others.
 const NO_NODE: i32 = -1;
@@ -55,7 +61,7 @@ pub(crate) fn write_ugrid(out: &mut dyn Write, view: &MeshView<'_>) -> io::Resul
         (0..mesh.triangles.len()).flat_map(|t| counter_clockwise(mesh, t)).map(|v| v.index() as i32);
     let ends = edges.iter().flat_map(|edge| edge.ends).map(|v| v as i32);
     let mut variables = vec![topology];
-    variables.extend(coordinates(["mesh2d_node_x", "mesh2d_node_y"], &[NODE], &mesh.vertices));
+    variables.extend(coordinates(view, ["mesh2d_node_x", "mesh2d_node_y"], &[NODE], &mesh.vertices));
     variables.push(connectivity("mesh2d_face_nodes", "face_node_connectivity", &[FACE, CORNER], corners));
     variables.push(connectivity("mesh2d_edge_nodes", "edge_node_connectivity", &[EDGE, TWO], ends));
     if let Some(markers) = &markers {
@@ -66,7 +72,7 @@ pub(crate) fn write_ugrid(out: &mut dyn Write, view: &MeshView<'_>) -> io::Resul
     if let Some(regions) = view.regions {
         variables.push(data("mesh2d_face_region", "face", &[FACE], Values::numbers(regions.iter().copied())));
     }
-    write(out, &dimensions, variables, view.epsg)
+    write(out, &dimensions, variables, view)
 }
 
 fn node_data<'a>(view: &MeshView<'a>) -> Vec<Variable<'a>> {
@@ -95,7 +101,7 @@ pub(crate) fn write_dual_ugrid(
     dual: &Voronoi<'_>,
 ) -> io::Result<()> {
     let mesh = view.mesh;
-    let cells = Cells::of(mesh, dual);
+    let cells = Cells::of(view, dual);
     let most = cells.iter().map(|(_, ring)| ring.len()).max().unwrap_or(0);
     let dimensions = [(NODE, cells.corners.len()), (FACE, cells.vertices.len()), (CORNER, most)];
     let centres: Vec<DVec2> = cells.iter().map(|(vertex, _)| mesh.vertices[vertex]).collect();
@@ -107,15 +113,15 @@ pub(crate) fn write_dual_ugrid(
     let mut topology = topology();
     topology.attributes.push(("face_coordinates", Attribute::Text("mesh2d_face_x mesh2d_face_y")));
     let mut variables = vec![topology];
-    variables.extend(coordinates(["mesh2d_node_x", "mesh2d_node_y"], &[NODE], &cells.corners));
-    variables.extend(coordinates(["mesh2d_face_x", "mesh2d_face_y"], &[FACE], &centres));
+    variables.extend(coordinates(view, ["mesh2d_node_x", "mesh2d_node_y"], &[NODE], &cells.corners));
+    variables.extend(coordinates(view, ["mesh2d_face_x", "mesh2d_face_y"], &[FACE], &centres));
     let mut faces = connectivity("mesh2d_face_nodes", "face_node_connectivity", &[FACE, CORNER], corners);
     faces.attributes.push(("_FillValue", Attribute::Integer(NO_NODE)));
     variables.push(faces);
     let vertices = cells.iter().map(|(vertex, _)| vertex as i32);
     variables.push(data("mesh2d_face_vertex", "face", &[FACE], Values::integers(vertices)));
     variables.push(data("mesh2d_face_area", "face", &[FACE], Values::numbers(areas)));
-    write(out, &dimensions, variables, view.epsg)
+    write(out, &dimensions, variables, view)
 }
 
 /// Writes a file, with its coordinate system if that is known.
@@ -123,29 +129,34 @@ fn write(
     out: &mut dyn Write,
     dimensions: &[(&str, usize)],
     variables: Vec<Variable<'_>>,
-    epsg: Option<u16>,
+    view: &MeshView<'_>,
 ) -> io::Result<()> {
-    let Some(number) = epsg else {
+    let of_degrees = view.geographic.is_some();
+    let number = view.epsg.or(of_degrees.then_some(WGS84));
+    if number.is_none() && view.definition.is_none() {
         return netcdf::write(out, dimensions, &CONVENTIONS, variables);
-    };
-    let code = format!("EPSG:{number}");
+    }
+    let system = if of_degrees { DEGREES } else { SYSTEM };
+    let code = number.map(|number| format!("EPSG:{number}"));
     let mut variables = variables;
     for variable in &mut variables {
         if variable.attributes.iter().any(|(name, _)| *name == "location") {
-            variable.attributes.push(("grid_mapping", Attribute::Text(SYSTEM)));
+            variable.attributes.push(("grid_mapping", Attribute::Text(system)));
         }
     }
-    let attributes = vec![
-        ("name", Attribute::Text(&code)),
-        ("epsg", Attribute::Integer(number.into())),
-        ("EPSG_code", Attribute::Text(&code)),
-    ];
-    variables.push(Variable {
-        name: SYSTEM,
-        dimensions: &[],
-        attributes,
-        values: Values::integers([number.into()]),
-    });
+    let mut attributes = Vec::new();
+    if let (Some(number), Some(code)) = (number, &code) {
+        attributes.push(("name", Attribute::Text(code)));
+        attributes.push(("epsg", Attribute::Integer(number.into())));
+        attributes.push(("EPSG_code", Attribute::Text(code)));
+    }
+    if of_degrees {
+        attributes.push(("grid_mapping_name", Attribute::Text("latitude_longitude")));
+    } else if let Some(definition) = view.definition {
+        attributes.push(("proj4_params", Attribute::Text(definition)));
+    }
+    let values = Values::integers([number.map_or(0, i32::from)]);
+    variables.push(Variable { name: system, dimensions: &[], attributes, values });
     netcdf::write(out, dimensions, &CONVENTIONS, variables)
 }
 
@@ -164,16 +175,28 @@ fn topology() -> Variable<'static> {
     Variable { name: "mesh2d", dimensions: &[], attributes, values: Values::integers([0]) }
 }
 
-fn coordinates<'a>(names: [&'a str; 2], dimensions: &'a [&'a str], places: &'a [DVec2]) -> [Variable<'a>; 2] {
+fn coordinates<'a>(
+    view: &MeshView<'_>,
+    names: [&'a str; 2],
+    dimensions: &'a [&'a str],
+    places: &'a [DVec2],
+) -> [Variable<'a>; 2] {
     let [x, y]: [Values<'a>; 2] =
         [Values::numbers(places.iter().map(|p| p.x)), Values::numbers(places.iter().map(|p| p.y))];
-    let variable = |name, standard, values| Variable {
-        name,
-        dimensions,
-        attributes: vec![("standard_name", Attribute::Text(standard))],
-        values,
+    let variable = |name, standard, units: Option<&'static str>, values| {
+        let standard = [("standard_name", Attribute::Text(standard))];
+        let units = units.map(|units| ("units", Attribute::Text(units)));
+        Variable { name, dimensions, attributes: standard.into_iter().chain(units).collect(), values }
     };
-    [variable(names[0], "projection_x_coordinate", x), variable(names[1], "projection_y_coordinate", y)]
+    if view.geographic.is_some() {
+        let longitude = variable(names[0], "longitude", Some("degrees_east"), x);
+        return [longitude, variable(names[1], "latitude", Some("degrees_north"), y)];
+    }
+    let metres = view.definition.map(|_| "m");
+    [
+        variable(names[0], "projection_x_coordinate", metres, x),
+        variable(names[1], "projection_y_coordinate", metres, y),
+    ]
 }
 
 fn connectivity<'a>(

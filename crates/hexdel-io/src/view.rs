@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use hexdel_geom::{DVec2, Region, TriMesh, VertexId};
+use hexdel_geom::{DVec2, Region, TriMesh, TriangleId, VertexId};
 use serde::{Deserialize, Serialize};
 
 use crate::error::WriteError;
@@ -17,6 +17,16 @@ pub struct MarkedEdge {
     pub ends: [VertexId; 2],
     /// Its marker, in Triangle's sense.
     pub marker: i32,
+}
+
+/// A mesh whose coordinates are longitudes and latitudes, made in the plane of a projection: angles and areas are
+/// those of the plane.
+#[derive(Clone, Copy)]
+pub struct Geographic<'a> {
+    /// The same triangles in the plane.
+    pub plane: &'a TriMesh,
+    /// From the plane to degrees, for corners of dual cells.
+    pub to_degrees: &'a dyn Fn(DVec2) -> DVec2,
 }
 
 /// A mesh to be written, with what is known about it.
@@ -73,6 +83,11 @@ pub struct MeshView<'a> {
     /// The number of the coordinate system in the register of EPSG. Kept by `.geojson` and `.nc`, of
     /// meshes and of duals.
     pub epsg: Option<u16>,
+    /// The coordinate system as PROJ defines it, if it has no number. Kept by `.nc`.
+    pub definition: Option<&'a str>,
+    /// If coordinates are longitudes and latitudes, where angles and areas are told of. `.nc` names WGS 84 then,
+    /// unless [`epsg`](Self::epsg) is another system.
+    pub geographic: Option<Geographic<'a>>,
     /// How pictures look and what else is on them.
     pub picture: Picture<'a>,
 }
@@ -94,6 +109,8 @@ impl<'a> MeshView<'a> {
             first_number: 0,
             seeds: (&[], &[]),
             epsg: None,
+            definition: None,
+            geographic: None,
             picture: Picture::default(),
         }
     }
@@ -174,6 +191,16 @@ impl<'a> MeshView<'a> {
     #[must_use]
     pub fn with_picture(self, picture: Picture<'a>) -> Self {
         Self { picture, ..self }
+    }
+
+    /// The corners of a triangle where angles and areas are told of.
+    pub(crate) fn measured(&self, t: TriangleId) -> [DVec2; 3] {
+        self.geographic.map_or(self.mesh, |geographic| geographic.plane).corners(t)
+    }
+
+    /// The coordinates in the file of a corner of the dual.
+    pub(crate) fn placed(&self, corner: DVec2) -> DVec2 {
+        self.geographic.map_or(corner, |geographic| (geographic.to_degrees)(corner))
     }
 
     /// What the view has and a format does not carry, in words.
@@ -304,6 +331,8 @@ impl fmt::Debug for MeshView<'_> {
             .field("certificate", &self.certificate.is_some())
             .field("promised", &self.promised)
             .field("epsg", &self.epsg)
+            .field("definition", &self.definition)
+            .field("geographic", &self.geographic.is_some())
             .field("picture", &self.picture)
             .finish()
     }

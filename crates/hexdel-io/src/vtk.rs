@@ -65,7 +65,7 @@ fn point_data(text: &mut TextWriter<'_>, view: &MeshView<'_>) -> io::Result<()> 
 fn cell_data(text: &mut TextWriter<'_>, view: &MeshView<'_>) -> io::Result<()> {
     let count = view.mesh.triangles.len();
     text.text("CELL_DATA ").integer(count).text("\n");
-    let range = |t| angle_range_deg(view.mesh.corners(TriangleId::new(t)));
+    let range = |t| angle_range_deg(view.measured(TriangleId::new(t)));
     for (k, name) in ["min_angle double", "max_angle double"].into_iter().enumerate() {
         scalars(text, name, 0..count, |text, t| {
             text.number(range(t)[k]);

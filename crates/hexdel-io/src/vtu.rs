@@ -129,7 +129,7 @@ fn point_data(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
 
 fn cell_data(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
     let count = view.mesh.triangles.len();
-    let ranges = || (0..count).map(|t| angle_range_deg(view.mesh.corners(TriangleId::new(t))));
+    let ranges = || (0..count).map(|t| angle_range_deg(view.measured(TriangleId::new(t))));
     let smallest = ranges().map(|[min, _]| min.to_le_bytes());
     let largest = ranges().map(|[_, max]| max.to_le_bytes());
     out.write_all(b"<CellData>\n")?;

@@ -86,5 +86,5 @@ pub use mesher::{Mesher, Method, Start, triangulate};
 pub use session::{
     AnySession, Outcome, PointId, Session, SessionCheck, SessionError, SessionMesh, TemplateSession,
 };
-pub use size::{Size, SizeError};
+pub use size::{Size, SizeError, WaveRule};
 pub use triangulation::{Patch, Report, Seconds, Triangulation};

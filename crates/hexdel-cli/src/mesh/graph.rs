@@ -1,7 +1,9 @@
 //! PSLGs of points and segments, and points in other domains than a hexagon.
 
 use super::dual_edges::dual_edges_line;
-use super::{Args, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, write};
+use super::{
+    About, Args, Job, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, write,
+};
 use crate::exit::{Failure, Outcome, Verdict, warn};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
@@ -18,8 +20,12 @@ use std::fmt::{Display, Write as _};
 const SHOWN: usize = 10;
 
 /// Meshes a PSLG, writes the mesh and says what it is like.
-pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome {
-    let mesher = mesher(args)?;
+pub(super) fn run(args: &Args, job: &Job<'_>) -> Outcome {
+    let Job { outputs, input, size, about } = job;
+    let mut mesher = mesher(args)?;
+    if let Some(size) = size {
+        mesher = mesher.size(size.clone());
+    }
     if args.grid {
         warn("--grid: the mesh of a PSLG has no hexagons to show");
     }
@@ -41,6 +47,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, input: &PointFile) -> Outcome 
         with_markers: true,
         second_order: false,
         epsg: args.crs,
+        about,
         picture: args.picture.picture(made.certificate.bounds),
     };
     finished.write(outputs)
@@ -62,6 +69,7 @@ pub(crate) struct Finished<'a> {
     pub(crate) second_order: bool,
     /// The number of the coordinate system.
     pub(crate) epsg: Option<u16>,
+    pub(crate) about: &'a About<'a>,
     pub(crate) picture: Picture<'a>,
 }
 
@@ -111,7 +119,8 @@ impl Finished<'_> {
         if let Some(promised) = &promised {
             view = view.with_promised(promised);
         }
-        write(outputs, (&view, &made.mesh), &Report::new(Some(&report), self.input))?;
+        let report_file = Report::new(Some(&report), self.input, self.about);
+        write(outputs, (&view, &made.mesh), self.about.plane, &report_file)?;
         if !self.quiet {
             outputs.tell(&self.summary(&report))?;
         }
@@ -148,6 +157,7 @@ impl Finished<'_> {
         text.push_str(&columns_line(self.input));
         text.push_str(&heights_line(self.input));
         text.push_str(&degrees_line(self.input));
+        text.push_str(&self.about.lines());
         self.list(&mut text, "repaired", &report.repairs);
         let without = made.edges_of_segment.iter().filter(|&&edges| edges == 0).count();
         let without = if without > 0 { format!(", {without} not in the domain") } else { String::new() };
@@ -227,9 +237,6 @@ fn mesher(args: &Args) -> Result<Mesher, Failure> {
     }
     if let Some(domain) = args.domain() {
         mesher = mesher.domain(domain);
-    }
-    if let Some(size) = args.sizing()? {
-        mesher = mesher.size(size);
     }
     if let Some(area) = args.max_area {
         mesher = mesher.max_area(area);

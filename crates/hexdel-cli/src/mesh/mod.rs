@@ -8,14 +8,15 @@ use crate::crs::{self, epsg};
 use crate::exit::{Failure, Outcome, unused, warn};
 use crate::input::{Formats, Streams, is_stream, read_graph};
 use crate::outputs::{Content, Outputs};
+use crate::plane::{Plane, PlaneArgs, PlaneFigures, stays_in_plane};
 use crate::plot::{Colour, PictureArgs};
-use crate::sizing::size_of_file;
+use crate::sizing::{DepthFigures, Place, SizeArgs, positive};
 use clap::ValueEnum;
 use hexdel::geom::{BoundsError, Voronoi};
 use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Pslg, SegmentMethod, Size, TriMesh};
 use hexdel_io::{DualFormat, MeshFormat, MeshView, PointFile, write_dual, write_mesh, write_mesh_to};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 pub(crate) use graph::{Finished, failure, place, warn_of_repairs, warn_of_warnings};
@@ -33,7 +34,7 @@ pub(crate) use graph::{Finished, failure, place, warn_of_repairs, warn_of_warnin
     after_help = "\
 Input: .node .poly .csv .tsv .xyz .txt .pts .geojson .wkt .shp .2dm .14 .json .ron, - with --format
 Output: .ele (with .node) .edge .neigh .poly .vtu .vtk .msh .obj .off .mesh .stl .2dm .14 .nc
-        .geojson .wkt .json .ron .svg .png    Options not listed: --overlaps
+        .geojson .wkt .json .ron .svg .png   Not listed: --overlaps --grid --size-from-depth
 Example: hexdel mesh letters.poly -o letters.vtu --max-area 0.1 --report letters.json"
 )]
 pub(crate) struct Args {
@@ -70,13 +71,8 @@ pub(crate) struct Args {
     /// Largest area of a triangle; for a PSLG, within the circle around it
     #[arg(short = 'a', long, value_name = "A", value_parser = positive, allow_negative_numbers = true)]
     max_area: Option<f64>,
-    /// Longest edge allowed
-    #[arg(long = "size", alias = "max-edge", value_name = "H", value_parser = positive)]
-    #[arg(allow_negative_numbers = true)]
-    max_edge: Option<f64>,
-    /// Longest edge by place: a raster (.asc) or points with sizes (x y size)
-    #[arg(long, value_name = "FILE")]
-    size_file: Option<PathBuf>,
+    #[command(flatten)]
+    size: SizeArgs,
     /// Merge close points, divide crossing segments [TOL: 1e-9 of the size]
     #[arg(long, value_name = "TOL", num_args = 0..=1, require_equals = true, value_parser = tolerance)]
     #[expect(clippy::option_option, reason = "the option may be given without a value")]
@@ -98,14 +94,16 @@ pub(crate) struct Args {
     threads: Option<u16>,
     #[command(flatten)]
     formats: Formats,
-    /// Coordinate system that .geojson and .nc name; nothing is projected
+    /// Coordinate system that .geojson and .nc name
     #[arg(long, value_name = "EPSG:N", value_parser = epsg)]
     crs: Option<u16>,
+    #[command(flatten)]
+    plane: PlaneArgs,
     /// Write statistics of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Show the hexagons in pictures; see also hexdel plot --help
-    #[arg(long)]
+    /// Show the hexagons in pictures
+    #[arg(long, hide = true)]
     grid: bool,
     #[command(flatten)]
     picture: PictureArgs,
@@ -173,13 +171,6 @@ pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
     seconds.ok_or_else(|| "must be a number of seconds, 0 or more".to_owned())
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(number) if f64::is_finite(number) && number > 0.0 => Ok(number),
-        _ => Err("must be a positive number".to_owned()),
-    }
-}
-
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(number) if f64::is_finite(number) && number >= 0.0 => Ok(number),
@@ -194,7 +185,8 @@ const NO_PICTURE: &str = "it is for pictures, and no output is .svg or .png";
 pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
     args.refuse_unused()?;
-    let input = read_graph(&args.input, &args.formats)?;
+    let mut input = read_graph(&args.input, &args.formats)?;
+    let plane = args.plane.take(&mut input, &args.input)?;
     let for_graphs = args.is_for_graphs(&input.pslg);
     if args.picture.colour.is_some_and(Colour::needs_hexagons) {
         let of = match args.method() {
@@ -206,7 +198,34 @@ pub(crate) fn run(args: &Args) -> Outcome {
             return Err(Failure::NoHexagons { of: of.to_owned() });
         }
     }
-    if for_graphs { graph::run(args, &outputs, &input) } else { points::run(args, &outputs, &input) }
+    let place = Place { file: &args.input, points: &input.pslg.points, plane: plane.as_ref() };
+    let (size, depths) = args.size.read(&place)?;
+    let job = Job { outputs: &outputs, input: &input, size, about: About { plane: plane.as_ref(), depths } };
+    if for_graphs { graph::run(args, &job) } else { points::run(args, &job) }
+}
+
+/// What is meshed, and where the mesh goes.
+struct Job<'a> {
+    outputs: &'a Outputs,
+    input: &'a PointFile,
+    /// How long edges may be, if anything says so.
+    size: Option<Size>,
+    about: About<'a>,
+}
+
+/// What was made of the input before it was meshed.
+#[derive(Default)]
+pub(crate) struct About<'a> {
+    plane: Option<&'a Plane>,
+    depths: Option<DepthFigures>,
+}
+
+impl About<'_> {
+    /// Lines of a summary.
+    fn lines(&self) -> String {
+        let plane = self.plane.map_or_else(String::new, Plane::lines);
+        plane + &self.depths.as_ref().map_or_else(String::new, DepthFigures::line)
+    }
 }
 
 fn outputs(args: &Args) -> Result<Outputs, Failure> {
@@ -253,20 +272,6 @@ impl Args {
     fn is_for_graphs(&self, input: &Pslg) -> bool {
         let other_domain = self.domain.is_some_and(|d| !matches!(d, DomainName::Hexagon));
         !input.segments.is_empty() || other_domain || self.repair.is_some()
-    }
-
-    /// How long edges may be, if anything says so.
-    fn sizing(&self) -> Result<Option<Size>, Failure> {
-        let none = Size::unlimited();
-        let of_option = |source| Failure::Size { file: self.input.display().to_string(), source };
-        let mut size = none.clone();
-        if let Some(h) = self.max_edge {
-            size = size.and_constant(h).map_err(of_option)?;
-        }
-        if let Some(path) = &self.size_file {
-            size = size_of_file(size, path)?;
-        }
-        Ok(Some(size).filter(|size| *size != none))
     }
 
     /// The options that points and PSLGs share.
@@ -330,14 +335,21 @@ struct Report<'a, T> {
     /// What was wrong with the file and read all the same.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     input_warnings: Vec<String>,
+    /// The plane that it was meshed in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    projection: Option<PlaneFigures<'a>>,
+    /// The raster of depths that sizes are of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    depths: Option<&'a DepthFigures>,
 }
 
 impl<'a, T> Report<'a, T> {
-    fn new(figures: Option<&'a T>, input: &PointFile) -> Self {
+    fn new(figures: Option<&'a T>, input: &PointFile, about: &'a About<'_>) -> Self {
         let columns = input.columns.as_ref().map(ToString::to_string);
         let degrees = input.degrees.then(|| DEGREES.to_owned());
         let input_warnings = input.warnings.iter().map(ToString::to_string).chain(degrees).collect();
-        Self { figures, columns, input_warnings }
+        let projection = about.plane.map(Plane::figures);
+        Self { figures, columns, input_warnings, projection, depths: about.depths.as_ref() }
     }
 }
 
@@ -370,7 +382,7 @@ fn heights_line(input: &PointFile) -> String {
 }
 
 /// Said of longitudes and latitudes.
-const DEGREES: &str = "degrees are treated as plane coordinates; project them first";
+const DEGREES: &str = "degrees are treated as plane coordinates; project them first, or with --project";
 
 /// The line of a summary that warns of longitudes and latitudes.
 fn degrees_line(input: &PointFile) -> String {
@@ -382,22 +394,36 @@ fn degrees_line(input: &PointFile) -> String {
 fn write(
     outputs: &Outputs,
     (view, mesh): (&MeshView<'_>, &TriMesh),
+    plane: Option<&Plane>,
     report: &impl Serialize,
 ) -> Result<(), Failure> {
     let report = serde_json::to_string_pretty(report)? + "\n";
+    let mut in_plane = *view;
+    in_plane.definition = plane.and_then(Plane::definition);
+    let unprojected = plane.and_then(|plane| plane.unprojected(view));
+    let to_degrees = |at| plane.map_or(at, |plane| plane.degrees(at));
+    let in_degrees = unprojected.as_ref().map(|degrees| degrees.view(view, &to_degrees));
+    if let Some(plane) = plane {
+        plane.warn_of(unprojected.as_ref(), view.epsg, &outputs.paths());
+    }
+    let view = |path: &Path| in_degrees.filter(|_| !stays_in_plane(path)).unwrap_or(in_plane);
     outputs.write(|content, path| match content {
-        Content::Mesh => Ok(write_mesh(path, view)?),
+        Content::Mesh => Ok(write_mesh(path, &view(path))?),
         Content::Dual => {
             let at_fault = |source| Failure::Voronoi { file: path.display().to_string(), source };
-            let mut of_dual = MeshView::new(mesh);
-            of_dual.epsg = view.epsg;
+            let view = view(path);
+            let mut of_dual = MeshView::new(if view.geographic.is_some() { view.mesh } else { mesh });
+            (of_dual.epsg, of_dual.definition) = (view.epsg, view.definition);
+            of_dual.geographic = view.geographic;
             Ok(write_dual(path, &of_dual, &Voronoi::new(mesh).map_err(at_fault)?)?)
         }
         _ => {
             std::fs::write(path, &report).map_err(|source| Failure::Output { file: path.to_owned(), source })
         }
     })?;
-    outputs.write_stdout(|out, format| Ok(write_mesh_to(out, format, view, "standard output")?))
+    let stays = |format: MeshFormat| format.is_picture();
+    let of = |format| in_degrees.filter(|_| !stays(format)).unwrap_or(in_plane);
+    outputs.write_stdout(|out, format| Ok(write_mesh_to(out, format, &of(format), "standard output")?))
 }
 
 /// How many triangles are past a bound by rounding, as the end of a line.

@@ -2,19 +2,19 @@
 
 use super::dual_edges::dual_edges_line;
 use super::{
-    Args, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited, warn_ignored,
-    write,
+    Args, Job, OverlapsName, Report, columns_line, degrees_line, heights, heights_line, limited,
+    warn_ignored, write,
 };
 use crate::exit::{Outcome, Verdict, warn};
-use crate::outputs::Outputs;
 use crate::plot::Colour;
 use crate::progress::Progress;
 use hexdel::{Certificate, Overlaps, Size, Triangulation};
-use hexdel_io::{ColourBy, MeshView, Overlay, PointFile, Promised, PromisedDomain};
+use hexdel_io::{ColourBy, MeshView, Overlay, Promised, PromisedDomain};
 use std::fmt::Write as _;
 
 /// Meshes points, writes the mesh and says what it is like.
-pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
+pub(super) fn run(args: &Args, job: &Job<'_>) -> Outcome {
+    let Job { outputs, input: file, about, .. } = job;
     let input = &file.pslg;
     warn_ignored(args, &[(input.holes.len(), "holes"), (input.regions.len(), "regions")]);
     let mut mesher = args.mesher();
@@ -28,7 +28,7 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     if args.overlaps == OverlapsName::Refuse {
         mesher = mesher.overlaps(Overlaps::Refuse);
     }
-    let mut size = args.sizing()?;
+    let mut size = job.size.clone();
     if let Some(area) = args.max_area {
         let by_area = Size::area(area).map_err(|e| args.failure(e.into()))?;
         size = Some(size.unwrap_or_else(Size::unlimited).and(by_area));
@@ -75,10 +75,10 @@ pub(super) fn run(args: &Args, outputs: &Outputs, file: &PointFile) -> Outcome {
     }
     // The dual in it takes more memory than the mesh.
     let report = args.report.is_some().then(|| made.report());
-    write(outputs, (&view, &made.mesh), &Report::new(report.as_ref(), file))?;
+    write(outputs, (&view, &made.mesh), about.plane, &Report::new(report.as_ref(), file, about))?;
     if !args.quiet {
         let distinct = inputs.iter().flatten().count();
-        outputs.tell(&summary(&made, distinct, file))?;
+        outputs.tell(&summary(&made, distinct, job))?;
     }
     Ok(if made.budget_spent { Verdict::Spent } else { Verdict::Holds })
 }
@@ -95,7 +95,8 @@ fn significant(length: f64) -> String {
 }
 
 /// What is worth knowing at a glance.
-fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
+fn summary(made: &Triangulation, distinct: usize, job: &Job<'_>) -> String {
+    let file = job.input;
     let certificate = &made.certificate;
     let mut text = String::new();
     let duplicates = match certificate.inputs - distinct {
@@ -106,7 +107,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
     // Writing to a string does not fail.
     let _ = write!(
         text,
-        "points     {}{duplicates}\n{}{}{}\
+        "points     {}{duplicates}\n{}{}{}{}\
          mesh       {} vertices, {} triangles, {} levels\n\
          angles     {:.4} to {:.4} degrees\n\
          shape      aspect ratio at most {:.5}, shortest edge {}{}\n\
@@ -117,6 +118,7 @@ fn summary(made: &Triangulation, distinct: usize, file: &PointFile) -> String {
         columns_line(file),
         heights_line(file),
         degrees_line(file),
+        job.about.lines(),
         certificate.vertices,
         certificate.triangles,
         made.max_level,

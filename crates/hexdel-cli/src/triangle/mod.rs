@@ -7,7 +7,7 @@ mod switches;
 
 use crate::exit::{Failure, Outcome};
 use crate::input::warn_of;
-use crate::mesh::{Finished, failure, warn_of_repairs};
+use crate::mesh::{About, Finished, failure, warn_of_repairs};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use hexdel::{AngleBounds, Domain, Mesher, Method, Pslg};
@@ -89,6 +89,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
         with_markers: !switches.without_markers,
         second_order: switches.second_order,
         epsg: None,
+        about: &About::default(),
         picture: hexdel_io::Picture::default(),
     };
     finished.write(&outputs)

@@ -154,7 +154,7 @@ fn coordinate_systems_are_named_where_they_can_be() {
     bench.file("p.csv", "lon,lat\n8,47\n9,47\n8.5,48\n");
     let run = bench.run("mesh p.csv -o m.geojson --dual c.nc --crs epsg:4326 --report r.json");
     run.fine();
-    let told = "degrees are treated as plane coordinates; project them first";
+    let told = "degrees are treated as plane coordinates; project them first, or with --project";
     assert!(run.out.contains(&format!("\nwarning    {told}\n")), "{}", run.out);
     assert_eq!(bench.json("r.json")["input_warnings"], serde_json::json!([told]));
     bench.run("convert a.obj b.geojson --crs EPSG:25832").fine();

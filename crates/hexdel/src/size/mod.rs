@@ -6,6 +6,7 @@
 
 mod cones;
 mod raster;
+mod waves;
 
 use crate::error::Error;
 use cones::Cones;
@@ -17,6 +18,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 use thiserror::Error as ThisError;
+
+pub use waves::{GRAVITY, PER_WAVELENGTH, TIDE, WaveRule};
 
 /// Why something is no size.
 #[derive(Clone, Debug, PartialEq, ThisError)]
@@ -37,6 +40,22 @@ pub enum SizeError {
         size: f64,
         /// The smallest one that would do.
         least: f64,
+    },
+    /// A number of a rule by depths is not positive.
+    #[error("{what} must be positive and finite, got {found:?}")]
+    Rule {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        found: f64,
+    },
+    /// The longest edge is shorter than the shortest.
+    #[error("the longest edge must be at least the shortest, {min:?}, got {max:?}")]
+    Range {
+        /// The shortest.
+        min: f64,
+        /// The longest.
+        max: f64,
     },
     /// A gradation is not positive.
     #[error("the gradation must be positive and finite, got {gradation:?}")]
