@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
     Meshes    .ele (with .node), .vtu, .msh, .obj, .off, .mesh, .2dm, .14, .json, .ron; written only:\n          \
     .edge, .neigh, .poly, .vtk, .stl, .nc, .geojson, .wkt, .svg, .png\n\
-    Points    .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron; read only: .geojson,\n          \
+    Points    .node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .json, .ron; read only:\n          \
     .geojsonl, .geojsons, .ndjson, .wkt, .shp, .2dm, .14, .json of CG:SHOP\n\
     A .node is read as a mesh only if the output can be nothing else. Markers, regions and\n\
     marked edges are kept if the format has them; a warning names what is lost.\n\n\

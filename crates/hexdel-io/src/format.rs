@@ -19,7 +19,7 @@ pub enum PointFormat {
     /// A table with tabs and a header, `.tsv`.
     Tsv,
     /// `GeoJSON` (RFC 7946), `.geojson`, or a sequence of it, `.geojsonl`, `.geojsons`, `.ndjson`.
-    /// Read only.
+    /// Sequences are read only.
     GeoJson,
     /// Well-known text, `.wkt`. Read only.
     Wkt,
@@ -95,7 +95,7 @@ const MESH_NAMES: Names<MeshFormat> = &[
 
 impl PointFormat {
     /// The extensions that points are written to, for messages.
-    pub const EXTENSIONS: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .json, .ron";
+    pub const EXTENSIONS: &str = ".node, .poly, .csv, .tsv, .xyz, .txt, .pts, .geojson, .json, .ron";
 
     /// The extensions that points are read from, for messages.
     pub const READABLE: &str = if cfg!(feature = "shapefile") {
@@ -140,15 +140,16 @@ impl PointFormat {
     pub fn lost(self, pslg: &hexdel_geom::Pslg) -> Vec<&'static str> {
         let keeps_all = !matches!(self, Self::Table | Self::Csv | Self::Tsv);
         let all = [
-            ("point markers", pslg.point_markers.is_empty()),
-            ("point attributes", pslg.point_attributes.is_empty()),
+            ("point markers", pslg.point_markers.is_empty(), keeps_all),
+            ("point attributes", pslg.point_attributes.is_empty(), keeps_all && self != Self::GeoJson),
         ];
-        all.into_iter().filter(|(_, empty)| !empty && !keeps_all).map(|(name, _)| name).collect()
+        all.into_iter().filter(|(_, empty, kept)| !empty && !kept).map(|(name, ..)| name).collect()
     }
 
     /// Whether the format can be written.
     pub fn is_written(self) -> bool {
-        matches!(self, Self::Node | Self::Poly | Self::Table | Self::Csv | Self::Tsv | Self::Json | Self::Ron)
+        let as_tables = matches!(self, Self::Table | Self::Csv | Self::Tsv);
+        as_tables || matches!(self, Self::Node | Self::Poly | Self::GeoJson | Self::Json | Self::Ron)
     }
 }
 
@@ -352,7 +353,8 @@ mod tests {
     fn lists_of_extensions_are_complete() {
         let of = |name: &str| format!(".{name}");
         for name in PointFormat::names().filter(|n| *n != "cgshop") {
-            let written = PointFormat::from_name(name).unwrap().is_written();
+            let sequence = ["geojsonl", "geojsons", "ndjson"].contains(&name);
+            let written = PointFormat::from_name(name).unwrap().is_written() && !sequence;
             assert_eq!(PointFormat::EXTENSIONS.split(", ").any(|e| e == of(name)), written, "{name}");
             assert!(PointFormat::READABLE.split(", ").any(|e| e == of(name)), "{name}");
         }

@@ -9,7 +9,7 @@
 //! | `.node` | Triangle's points | yes | yes |
 //! | `.poly` | Triangle's planar straight-line graph | yes | yes |
 //! | `.csv` `.tsv` `.xyz` `.txt` `.pts` | text tables | yes | yes |
-//! | `.geojson` | `GeoJSON`, and sequences of it | yes | |
+//! | `.geojson` | `GeoJSON`; sequences of it are read only | yes | yes |
 //! | `.wkt` | well-known text | yes | |
 //! | `.shp` | shapefiles, with the feature `shapefile` | yes | |
 //! | `.2dm` `.14` | nodes of meshes of SMS and ADCIRC | yes | |
@@ -72,6 +72,7 @@ mod frame;
 mod geojson;
 #[cfg(feature = "png")]
 mod glyphs;
+mod graph_geojson;
 mod graph_json;
 mod graph_ron;
 mod histogram;

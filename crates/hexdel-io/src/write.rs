@@ -12,8 +12,8 @@ use crate::read::beside;
 use crate::text::TextWriter;
 use crate::view::MeshView;
 use crate::{
-    fort14, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, picture, polygons_out, stl,
-    svg, triangle_out, twodm, ugrid, vtk, vtu,
+    fort14, graph_geojson, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, picture,
+    polygons_out, stl, svg, triangle_out, twodm, ugrid, vtk, vtu,
 };
 
 /// Writes a mesh, or its picture, in the format that the extension stands for.
@@ -124,6 +124,11 @@ pub fn write_points(path: impl AsRef<Path>, pslg: &Pslg) -> Result<(), WriteErro
     let Some(format) = PointFormat::from_path(path) else {
         return Err(WriteError::UnknownExtension { file: name, known: PointFormat::EXTENSIONS });
     };
+    // Other extensions of the format are of sequences, which are another text.
+    let sequence = path.extension().is_some_and(|e| !e.eq_ignore_ascii_case("geojson"));
+    if format == PointFormat::GeoJson && sequence {
+        return Err(WriteError::ReadOnly { file: name, format: "sequences of geojson" });
+    }
     check_points(format, pslg, &name)?;
     let mut draft = Draft::create(path)?;
     draft.write(|out| write_graph(out, format, pslg))?;
@@ -165,6 +170,7 @@ fn write_graph(out: &mut dyn Write, format: PointFormat, pslg: &Pslg) -> io::Res
         PointFormat::Table => write_table(out, None, &pslg.points),
         PointFormat::Csv => write_table(out, Some(","), &pslg.points),
         PointFormat::Tsv => write_table(out, Some("\t"), &pslg.points),
+        PointFormat::GeoJson => graph_geojson::write_geojson(out, pslg),
         PointFormat::Json => graph_json::write_graph(out, pslg),
         PointFormat::Ron => graph_ron::write_graph_ron(out, pslg),
         // Refused by `check_points`.
@@ -230,6 +236,7 @@ fn check_points(format: PointFormat, pslg: &Pslg, name: &str) -> Result<(), Writ
             return Err(WriteError::Polygons { file: name.to_owned() });
         }
         PointFormat::Poly | PointFormat::Ron => return Ok(()),
+        PointFormat::GeoJson => return graph_geojson::check(pslg, name),
         PointFormat::Json => return graph_json::check_writable(pslg, name),
         _ => {}
     }

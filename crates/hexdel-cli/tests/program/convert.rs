@@ -225,3 +225,30 @@ fn conversion_warns_of_what_meshing_warns_of() {
     assert!(expected.len() >= 3 && expected.iter().any(|l| l.contains("overlap")), "{}", mesh.err);
     assert_eq!((convert.code, found), (0, expected));
 }
+
+/// Polygons stay polygons; holes and regions of Triangle's have no place.
+#[test]
+fn pslgs_become_geojson() {
+    let bench = Bench::new();
+    bench.file(
+        "a.wkt",
+        "POLYGON ((0 0, 6 0, 6 6, 0 6, 0 0), (2 2, 4 2, 4 4, 2 2))\nLINESTRING (7 7, 8 8)\nPOINT (9 9)\n",
+    );
+    bench.run("convert a.wkt a.geojson").fine();
+    let kinds = |name: &str| -> Vec<String> {
+        let features = bench.json(name)["features"].as_array().unwrap().clone();
+        features.iter().map(|f| f["geometry"]["type"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(kinds("a.geojson"), ["Polygon", "LineString", "Point"]);
+    let triangles = |input: &str| {
+        bench.run(&format!("mesh {input} -q -o m.ele --report r.json"));
+        bench.json("r.json")["triangles"].clone()
+    };
+    assert_eq!(triangles("a.wkt"), triangles("a.geojson"));
+    let run = bench.run(&format!("convert {} h.geojson", fixture("graphs/square_with_hole.poly")));
+    run.refused("h.geojson: the format has polygons, not holes");
+    bench.run("convert a.wkt a.geojsonl").refused("a.geojsonl");
+    // With attributes there is something to lose.
+    let run = bench.run(&format!("convert {} c.geojson", fixture("formats/fan.node")));
+    assert_eq!(run.code, 0, "{}", run.err);
+}

@@ -69,6 +69,22 @@ pub enum WriteError {
         /// The file.
         file: String,
     },
+    /// The format knows areas by polygons only.
+    #[error("{file}: the format has polygons, not {item}")]
+    Seeds {
+        /// The file.
+        file: String,
+        /// "holes" or "regions".
+        item: &'static str,
+    },
+    /// A ring of a polygon is no path that ends where it begins.
+    #[error("{file}: a ring of polygon {polygon} is not one closed path")]
+    Ring {
+        /// The file.
+        file: String,
+        /// The polygon.
+        polygon: usize,
+    },
     /// The format does not hold segments, holes or regions.
     #[error("{file}: the format holds points only, not {item}")]
     PointsOnly {
@@ -190,6 +206,8 @@ impl WriteError {
         | Self::ReadOnly { file, .. }
         | Self::Unrepresentable { file, .. }
         | Self::Polygons { file, .. }
+        | Self::Seeds { file, .. }
+        | Self::Ring { file, .. }
         | Self::PointsOnly { file, .. }
         | Self::NonFinite { file, .. }
         | Self::IndexOutOfRange { file, .. }
