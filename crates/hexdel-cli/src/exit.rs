@@ -66,6 +66,8 @@ pub(crate) enum Failure {
     Size { file: String, source: hexdel::SizeError },
     #[error("{file}: {source}")]
     Projection { file: String, source: hexdel_io::ProjectionError },
+    #[error("{file}: --height-attribute {asked}: each point has {count} attributes")]
+    NoAttribute { file: String, asked: u32, count: usize },
     #[error("{failed} commands failed")]
     Commands { failed: usize },
     #[error("{option} has no effect: {why}")]

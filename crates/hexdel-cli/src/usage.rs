@@ -7,7 +7,7 @@ use clap::{Arg, Command, CommandFactory, Error};
 
 /// Options of other programs, and what the same is called here, with its value. An option
 /// whose value has another name is another one.
-const SAME: [(&[&str], &str, &str); 15] = [
+const SAME: [(&[&str], &str, &str); 17] = [
     (&["area", "maxarea", "max_area", "area-max", "triangle-area"], "max-area", "--max-area A"),
     (&["angle", "quality", "minangle", "min_angle", "angle-min"], "min-angle", "--min-angle DEG"),
     (&["maxangle", "max_angle", "angle-max"], "max-angle", "--max-angle DEG"),
@@ -30,7 +30,9 @@ const SAME: [(&[&str], &str, &str); 15] = [
         "--domain hexagon, hull, box or inside",
     ),
     (&["column", "cols", "xy", "fields", "x-column", "xcol", "x", "y"], "columns", "--columns X,Y"),
-    (&["epsg", "srs", "srid", "projection", "proj"], "crs", "--crs EPSG:N"),
+    (&["epsg", "srs", "srid"], "crs", "--crs EPSG:N"),
+    (&["projection", "proj", "reproject", "t-srs"], "project", "--project NAME"),
+    (&["grading", "growth", "growth-rate", "grade"], "gradation", "--gradation G"),
     (&["silent", "no-output"], "quiet", "--quiet"),
     (&["radius", "domain-size"], "domain-radius", "--domain-radius R"),
     (&["from", "input-type", "in-format"], "input-format", "--input-format NAME"),

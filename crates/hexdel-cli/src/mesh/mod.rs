@@ -99,6 +99,9 @@ pub(crate) struct Args {
     crs: Option<u16>,
     #[command(flatten)]
     plane: PlaneArgs,
+    /// Which attribute of points is their height, from 1, in .node, .poly, .json, .ron
+    #[arg(long, hide = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    height_attribute: Option<u32>,
     /// Write statistics of the mesh as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -186,6 +189,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
     let outputs = outputs(args)?;
     args.refuse_unused()?;
     let mut input = read_graph(&args.input, &args.formats)?;
+    args.name_heights(&mut input)?;
     let plane = args.plane.take(&mut input, &args.input)?;
     let for_graphs = args.is_for_graphs(&input.pslg);
     if args.picture.colour.is_some_and(Colour::needs_hexagons) {
@@ -266,6 +270,17 @@ impl Args {
             Some(option) => unused(option, NO_PICTURE),
             None => Ok(()),
         }
+    }
+
+    /// Takes an attribute of points for their height, if one was named.
+    fn name_heights(&self, input: &mut PointFile) -> Result<(), Failure> {
+        let Some(asked) = self.height_attribute else { return Ok(()) };
+        let count = input.pslg.attributes_per_point;
+        if asked as usize > count {
+            return Err(Failure::NoAttribute { file: self.input.display().to_string(), asked, count });
+        }
+        input.height_attribute = Some(asked as usize - 1);
+        Ok(())
     }
 
     /// Whether the input, or what is asked for, takes more than points.

@@ -91,3 +91,24 @@ fn decimal_commas_are_read_where_they_cannot_be_mistaken() {
     run.refused("decimal commas are read where ; or a tab separates");
     assert!(run.err.contains("b.csv:3: "), "{}", run.err);
 }
+
+/// Attributes of `.node` and `.poly` have no names: the option says which is the height.
+#[test]
+fn an_attribute_may_be_the_height() {
+    let bench = Bench::new();
+    bench.file("p.node", "4 2 2 0\n0 0 0 7 1.5\n1 4 0 8 2.5\n2 4 4 9 3.5\n3 0 4 7 4.5\n");
+    bench.file("s.poly", "0 2 2 0\n4 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n0\n");
+    bench.file("s.node", bench.read("p.node"));
+    for input in ["p.node", "s.poly"] {
+        let run = bench.run(&format!("mesh {input} -o m.2dm --height-attribute 2"));
+        run.fine();
+        assert!(run.out.contains("heights    1.5 to 4.5 at points, linear between them"), "{}", run.out);
+        let mesh = String::from_utf8(bench.read("m.2dm")).unwrap();
+        assert!(mesh.lines().any(|line| line.starts_with("ND") && line.ends_with(" 4.0 4.0 3.5")), "{mesh}");
+        let plain = bench.run(&format!("mesh {input} -o m.2dm"));
+        assert!(!plain.out.contains("heights"), "{}", plain.out);
+        let run = bench.run(&format!("mesh {input} -o m.2dm --height-attribute 3"));
+        run.refused("--height-attribute 3: each point has 2 attributes");
+        bench.run(&format!("mesh {input} -o m.2dm --height-attribute 0")).refused("--height-attribute");
+    }
+}
