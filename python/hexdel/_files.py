@@ -119,7 +119,9 @@ def _inverse(inputs: Any) -> Any:
     return vertices
 
 
-def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False) -> None:
+def write(
+    path: str | os.PathLike[str], what: Any, *, second_order: bool = False, crs: str | int | None = None
+) -> None:
     """Writes a mesh, or points or a PSLG, by the extension of the file.
 
     Parameters
@@ -128,11 +130,14 @@ def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False
         Meshes: ``.ele`` with ``.node``, ``.edge``, ``.neigh``, ``.poly``, ``.vtu``, ``.vtk``,
         ``.msh``, ``.obj``, ``.off``, ``.mesh``, ``.stl``, ``.2dm``, ``.14``, ``.nc`` (UGRID),
         ``.geojson``, ``.wkt``, ``.json``, ``.ron``, and pictures: ``.svg``, ``.png``.
-        Graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``, ``.xyz``, ``.json``, ``.ron``.
+        Graphs: ``.node``, ``.poly``, ``.csv``, ``.tsv``, ``.xyz``, ``.geojson``, ``.json``, ``.ron``.
     what : Mesh, Graph, mapping or array_like
         A PSLG is a mapping of arguments of `mesh_pslg`, points are an array of shape (n, 2).
     second_order : bool, optional
         Whether ``.ele`` gets nodes on the middles of edges.
+    crs : str or int, optional
+        The coordinate system of a mesh in ``.geojson`` or ``.nc``, by its code of EPSG such as
+        ``"EPSG:25832"`` or 25832. Coordinates stay as they are: pyproj projects them.
 
     Raises
     ------
@@ -146,10 +151,11 @@ def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False
     """
     path = os.fspath(path)
     if isinstance(what, Mesh):
-        lost = _hexdel.write_mesh(path, what._raw(), bool(second_order))
+        lost = _hexdel.write_mesh(path, what._raw(), bool(second_order), _epsg(crs, path))
     else:
-        if second_order:
-            raise OptionError("second_order is for meshes", kind="option")
+        if second_order or crs is not None:
+            option = "second_order" if second_order else "crs"
+            raise OptionError(f"{option} is for meshes", kind="option")
         given = dict(what) if isinstance(what, Mapping) else {"points": what}
         unknown = set(given) - set(Graph._KEYS)
         if unknown:
@@ -159,3 +165,16 @@ def write(path: str | os.PathLike[str], what: Any, *, second_order: bool = False
     if lost:
         name = os.path.basename(path)
         warnings.warn(f"{name}: the format has no place for {', '.join(lost)}", HexdelWarning, stacklevel=2)
+
+
+def _epsg(crs: str | int | None, path: str) -> int | None:
+    """The number of a coordinate system that a file holds."""
+    if crs is None:
+        return None
+    if not path.lower().endswith((".geojson", ".nc")):
+        raise OptionError(f"crs is for .geojson and .nc, and {os.path.basename(path)} is neither", kind="option")
+    digits = crs.upper().removeprefix("EPSG:") if isinstance(crs, str) and ":" in crs else str(crs)
+    number = int(digits) if digits.isascii() and digits.isdecimal() and not isinstance(crs, bool) else 0
+    if not 0 < number < 65536:
+        raise OptionError(f"crs must be a code like 'EPSG:25832', got {crs!r}", kind="option")
+    return number

@@ -152,10 +152,12 @@ pub(crate) fn write_mesh(
     path: PathBuf,
     mesh: MeshArrays<'_>,
     second_order: bool,
+    epsg: Option<u16>,
 ) -> PyResult<Vec<&'static str>> {
     let data = mesh.data()?;
     let written = aside(py, move || {
-        let view = data.view().with_second_order(second_order);
+        let mut view = data.view().with_second_order(second_order);
+        view.epsg = epsg;
         let lost = MeshFormat::from_path(&path).map(|format| view.lost_in(format)).unwrap_or_default();
         io::write_mesh(&path, &view).map(|()| lost)
     })?;

@@ -295,6 +295,24 @@ def test_graphs_are_read_and_written(tmp_path):
     assert (hexdel.read(tmp_path / "points.csv").points == graph.points).all()
 
 
+def test_coordinate_systems_and_shapefiles(tmp_path, points):
+    mesh = hexdel.mesh(points)
+    for crs in ("EPSG:25832", 25832, "epsg:25832"):
+        hexdel.write(tmp_path / "m.geojson", mesh, crs=crs)
+        named = json.loads((tmp_path / "m.geojson").read_text())["crs"]["properties"]["name"]
+        assert named == "urn:ogc:def:crs:EPSG::25832"
+    mesh.save(tmp_path / "m.nc", crs="EPSG:4326")
+    for crs in ("WGS84", 0, -1, 70000, True):
+        with pytest.raises(hexdel.OptionError, match="crs must be a code like"):
+            mesh.save(tmp_path / "m.nc", crs=crs)
+    with pytest.raises(hexdel.OptionError, match="crs is for .geojson and .nc"):
+        mesh.save(tmp_path / "m.vtu", crs="EPSG:4326")
+    areas = hexdel.read(FIXTURES / "formats" / "areas.shp")
+    assert len(areas["points"]) > 3 and len(areas["segments"]) > 3
+    hexdel.write(tmp_path / "areas.geojson", {"points": areas["points"], "segments": areas["segments"]})
+    assert len(hexdel.read(tmp_path / "areas.geojson")["segments"]) == len(areas["segments"])
+
+
 def test_columns_of_tables(tmp_path):
     (tmp_path / "wells.csv").write_text("id,north,east\n1,5.0,2.0\n2,6.0,3.5\n")
     assert hexdel.read(tmp_path / "wells.csv").points.tolist() == [[2.0, 5.0], [3.5, 6.0]]
