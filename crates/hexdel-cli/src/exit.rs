@@ -68,6 +68,8 @@ pub(crate) enum Failure {
     Projection { file: String, source: hexdel_io::ProjectionError },
     #[error("{file}: --height-attribute {asked}: each point has {count} attributes")]
     NoAttribute { file: String, asked: u32, count: usize },
+    #[error("{file}: the raster has no value around the points; with --project its places are degrees, too")]
+    RasterElsewhere { file: String },
     #[error("{failed} commands failed")]
     Commands { failed: usize },
     #[error("{option} has no effect: {why}")]

@@ -134,7 +134,7 @@ impl SizeArgs {
         let extremes = [f64::min as fn(f64, f64) -> f64, f64::max];
         let depths = extremes.map(|pick| known.iter().copied().reduce(pick).unwrap_or(f64::NAN));
         let (cells, without) = (raster.values.len(), raster.values.len() - known.len());
-        let raster = in_plane(raster, place);
+        let raster = in_plane(raster, path, place)?;
         let range = [self.min_size.unwrap_or(raster.cell), self.max_edge.unwrap_or(f64::INFINITY)];
         let (period, elements) =
             (self.wave_period.unwrap_or(TIDE), self.per_wavelength.unwrap_or(PER_WAVELENGTH));
@@ -154,7 +154,7 @@ pub(crate) fn size_of_file(size: Size, path: &Path) -> Result<Size, Failure> {
 fn of_file(size: Size, path: &Path, place: &Place<'_>) -> Result<Size, Failure> {
     let of_size = |source| Failure::Size { file: path.display().to_string(), source };
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("asc")) {
-        let raster = in_plane(hexdel_io::read_raster(path)?, place);
+        let raster = in_plane(hexdel_io::read_raster(path)?, path, place)?;
         return size.and_raster(&raster).map_err(of_size);
     }
     let mut points = hexdel_io::read_sizes(path)?;
@@ -171,8 +171,9 @@ fn of_file(size: Size, path: &Path, place: &Place<'_>) -> Result<Size, Failure> 
 const AROUND: f64 = 0.1;
 
 /// A raster by longitude and latitude as one in the plane around the points, with cells as small as they are there.
-fn in_plane(raster: Raster, place: &Place<'_>) -> Raster {
-    let Some(plane) = place.plane else { return raster };
+fn in_plane(raster: Raster, path: &Path, place: &Place<'_>) -> Result<Raster, Failure> {
+    let Some(plane) = place.plane else { return Ok(raster) };
+    let elsewhere = || Failure::RasterElsewhere { file: path.display().to_string() };
     let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let (low, high) = place.points.iter().fold(start, |(low, high), p| (low.min(*p), high.max(*p)));
     let margin = AROUND * (high - low).max_element();
@@ -193,7 +194,11 @@ fn in_plane(raster: Raster, place: &Place<'_>) -> Raster {
     let sides = [DVec2::X, DVec2::Y].map(|step| side(raster.cell * step).unwrap_or(f64::INFINITY));
     let cell = sides[0].min(sides[1]);
     if !(cell > 0.0 && cell.is_finite()) {
-        return raster;
+        return Err(elsewhere());
     }
-    raster.resampled([low - margin, high + margin], cell, to_raster)
+    let planar = raster.resampled([low - margin, high + margin], cell, to_raster);
+    if planar.values.iter().all(Option::is_none) && raster.values.iter().any(Option::is_some) {
+        return Err(elsewhere());
+    }
+    Ok(planar)
 }

@@ -109,6 +109,9 @@ fn options_of_depths_need_depths() {
     bench
         .run("mesh coast.geojson -o m.ele --size-from-depth depths.asc --min-size 9 --size 8")
         .refused("depths.asc: the longest edge must be at least");
+    bench.file("plane.asc", "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n5\n");
+    let command = "mesh coast.geojson -o m.ele --project lambert --size-from-depth plane.asc --min-size 1";
+    bench.run(command).refused("plane.asc: the raster has no value around the points");
     bench.file("empty.asc", "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n-9\n");
     bench
         .run("mesh coast.geojson -o m.ele --size-from-depth empty.asc --min-size 1")
