@@ -298,7 +298,8 @@ def test_graphs_are_read_and_written(tmp_path):
 def test_coordinate_systems_and_shapefiles(tmp_path, points):
     mesh = hexdel.mesh(points)
     for crs in ("EPSG:25832", 25832, "epsg:25832"):
-        hexdel.write(tmp_path / "m.geojson", mesh, crs=crs)
+        with pytest.warns(hexdel.HexdelWarning, match="no place for input indices"):
+            hexdel.write(tmp_path / "m.geojson", mesh, crs=crs)
         named = json.loads((tmp_path / "m.geojson").read_text())["crs"]["properties"]["name"]
         assert named == "urn:ogc:def:crs:EPSG::25832"
     mesh.save(tmp_path / "m.nc", crs="EPSG:4326")
@@ -307,7 +308,8 @@ def test_coordinate_systems_and_shapefiles(tmp_path, points):
             mesh.save(tmp_path / "m.nc", crs=crs)
     with pytest.raises(hexdel.OptionError, match="crs is for .geojson and .nc"):
         mesh.save(tmp_path / "m.vtu", crs="EPSG:4326")
-    areas = hexdel.read(FIXTURES / "formats" / "areas.shp")
+    with pytest.warns(hexdel.HexdelWarning, match="borders of polygons were divided"):
+        areas = hexdel.read(FIXTURES / "formats" / "areas.shp")
     assert len(areas["points"]) > 3 and len(areas["segments"]) > 3
     hexdel.write(tmp_path / "areas.geojson", {"points": areas["points"], "segments": areas["segments"]})
     assert len(hexdel.read(tmp_path / "areas.geojson")["segments"]) == len(areas["segments"])
