@@ -32,6 +32,9 @@ const GRANTED_DEG: f64 = 0.99 * hexdel_geom::ANGLE_TOLERANCE_DEG;
 /// that it arrives inside after finitely many steps.
 const SLACK_DEG: f64 = 0.05;
 
+/// Cotangent of an angle from which on it counts as a right one: 90 - 1e-6 degrees.
+const NEARLY_RIGHT: f64 = 1.75e-8;
+
 /// The cotangents of one pair of bounds.
 #[derive(Clone, Copy, Debug)]
 struct Cot {
@@ -271,6 +274,12 @@ impl Measure {
     pub(crate) fn of(a: DVec2, b: DVec2, c: DVec2) -> Self {
         let (u, v, w) = (b - a, c - b, a - c);
         Self { cross: u.perp_dot(-w), dot: [-u.dot(w), -v.dot(u), -w.dot(v)] }
+    }
+
+    /// Whether the angle at corner `k` is a right one up to rounding, or larger.
+    #[inline]
+    pub(crate) fn is_nearly_right(&self, k: usize) -> bool {
+        self.dot[k] <= NEARLY_RIGHT * self.cross
     }
 
     #[inline]

@@ -145,9 +145,9 @@ const HOPELESS: usize = 20;
 /// tenths of a second.
 const BATCH: usize = 8;
 
-/// Triangles that are rescued in a mesh with segments, at most: each takes some
-/// tenths of a second.
-const FEW: usize = 12;
+/// Triangles that are rescued in a mesh with segments, at most: more of them share what
+/// all together may take, and none has enough.
+const FEW: usize = 60;
 
 /// Triangles visited by projection sweeps for each of them, at most: those that
 /// are rescued at all took a million in the median, five at most.
@@ -214,10 +214,15 @@ impl<'a> Run<'a> {
 
     /// The phases in turn. Motion and removals come before search: what motion
     /// alone does not settle often goes with a vertex, and search is cheaper on
-    /// the coarser mesh.
+    /// the coarser mesh. Where there are segments removals begin with a mesh that
+    /// keeps its bounds, or not at all: they take the room that what is left needs.
     fn all(&mut self) -> Result<(), Stop> {
-        if self.rules.limits_areas() && self.divides.is_none() {
-            self.round(|work| divide_large(work, None))?;
+        if self.repairs_first() {
+            self.move_all()?;
+            self.search()?;
+            if !self.hopeful(false).is_empty() {
+                return Ok(());
+            }
         }
         self.shorten()?;
         match self.passes() {
@@ -238,7 +243,7 @@ impl<'a> Run<'a> {
 
     /// Divides edges longer than wanted, and what is too large with them.
     fn shorten(&mut self) -> Result<(), Stop> {
-        let Some(sizing) = self.divides else { return Ok(()) };
+        let Some(sizing) = self.divides else { return self.divide() };
         for i in 0..DIVISIONS {
             let corners = |t: &[u32; 3]| t.map(|v| self.soup.pos[v as usize]);
             let fits = |t: &[u32; 3]| {
@@ -259,6 +264,24 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Divides triangles larger than allowed.
+    fn divide(&mut self) -> Result<(), Stop> {
+        let mut least = usize::MAX;
+        for _ in 0..DIVISIONS {
+            let corners = |t: u32| self.soup.tris[t as usize].map(|v| self.soup.pos[v as usize]);
+            let large = |t: &u32| !self.rules.is_small(corners(*t));
+            let large: Vec<u32> = (0..self.soup.tris.len() as u32).filter(large).collect();
+            if large.is_empty() || large.len() >= least {
+                break;
+            }
+            least = large.len();
+            self.guard = None;
+            let cuts = spots(&self.soup, &large, SPOT_RINGS[0], self.stats.rounds);
+            self.round_of(&cuts, |work| divide_large(work, None))?;
+        }
+        Ok(())
+    }
+
     /// Passes of removals before the first search.
     fn passes(&self) -> usize {
         match self.options.effort {
@@ -268,11 +291,16 @@ impl<'a> Run<'a> {
         }
     }
 
+    fn repairs_first(&self) -> bool {
+        self.soup.is_constrained() && self.passes() > 0
+    }
+
     /// The most rounds there can be.
     fn rounds(&self) -> usize {
-        let lengths = if self.divides.is_some() { 2 * DIVISIONS } else { 0 };
-        let areas = lengths.max(usize::from(self.rules.limits_areas()));
-        let once = areas + repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
+        let divides = self.divides.is_some() || self.rules.limits_areas();
+        let divisions = if divides { 2 * DIVISIONS } else { 0 };
+        let repair = repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
+        let once = divisions + repair * (1 + usize::from(self.repairs_first()));
         match self.options.effort {
             Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),
             Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),
@@ -294,10 +322,16 @@ impl<'a> Run<'a> {
     fn move_all(&mut self) -> Result<(), Stop> {
         self.guard = None;
         for i in 0..repair::MOVES.len() {
-            if self.bad().is_empty() {
+            let bad = self.bad();
+            if bad.is_empty() {
                 break;
             }
-            self.round(|work| repair::moves(work, i))?;
+            let cuts = if self.soup.is_constrained() {
+                spots(&self.soup, &bad, SPOT_RINGS[0], self.stats.rounds)
+            } else {
+                partition(&self.soup, self.stats.rounds)
+            };
+            self.round_of(&cuts, |work| repair::moves(work, i))?;
         }
         Ok(())
     }
@@ -356,10 +390,12 @@ impl<'a> Run<'a> {
     /// Triangles outside the bounds.
     fn bad(&self) -> Vec<u32> {
         let near = self.soup.near();
+        let wrong = self.soup.beside_wrong_sides();
         let is_bad = |&t: &u32| {
             let t = t as usize;
             let corners = self.soup.tris[t].map(|v| self.soup.pos[v as usize]);
             !self.rules.is_within(self.soup.place(t, &near), corners)
+                || wrong.binary_search(&(t as u32)).is_ok()
         };
         (0..self.soup.tris.len() as u32).filter(is_bad).collect()
     }

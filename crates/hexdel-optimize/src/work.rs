@@ -139,9 +139,9 @@ impl<'a> Work<'a> {
             && (!self.rules.limits_areas() || self.areas_hold())
     }
 
-    /// Whether nothing that changed since the last commit is clockwise or flat. A
-    /// mesh with segments comes without such triangles, so that no step towards
-    /// the bounds may make one; other starts may have some to be repaired.
+    /// Whether nothing that changed since the last commit is clockwise, flat or
+    /// larger than allowed. A mesh with segments comes without such triangles, so that
+    /// no step towards the bounds may make one; other starts may have some to be repaired.
     pub(crate) fn stays_valid(&self) -> bool {
         let mesh = &self.mesh;
         if !mesh.is_constrained() {
@@ -153,7 +153,7 @@ impl<'a> Work<'a> {
         };
         let mut valid = self.patch.triangles().iter().all(|&t| turns_left(t));
         mesh.changed(|t| valid = valid && turns_left(t));
-        valid
+        valid && (!self.rules.limits_areas() || self.areas_hold())
     }
 
     /// Whether what has been near a segment and is no more keeps the bounds
@@ -225,7 +225,7 @@ impl<'a> Work<'a> {
     }
 
     fn is_good(&self, t: u32) -> bool {
-        self.rules.is_good(&self.mesh, t)
+        self.rules.is_good(&self.mesh, t) && !self.mesh.has_wrong_side(t)
     }
 
     /// Triangles outside the bounds, ascending.

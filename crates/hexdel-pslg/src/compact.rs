@@ -5,12 +5,12 @@
 //! constraints, and a net again.
 
 use crate::error::PslgError;
-use crate::fit::count_rings;
-use crate::fit::judge::Judge;
 use crate::geometry::fraction;
+use crate::judge::Judge;
 use crate::limits::Limits;
 use crate::net::{Kind, NONE, Net};
 use crate::options::Deadline;
+use crate::rings::count_rings;
 use crate::sectors::Sectors;
 use crate::validate::Piece;
 use hexdel_geom::{DVec2, Monitor, TriMesh, VertexId};

@@ -25,21 +25,22 @@
 //! | `limits` | limits on the area of triangles and the length of edges |
 //! | `faces` | polygons become holes and regions |
 //! | `hull` | the convex hull as a boundary |
-//! | `net` | a triangulation that can be changed, and changes taken back |
+//! | `net` | a triangulation that can be changed |
 //! | `field` | the size of a mesh at every place |
 //! | `fans` | triangles around the narrowest corners |
 //! | `embed` | points and segments go into the mesh |
 //! | `carve` | holes and the outside go |
 //! | `seeds` | holes and regions that change nothing |
 //! | `sectors` | corners that are narrower than the bound |
-//! | `fit` | the optimiser |
-//! | `compact` | fewer triangles |
+//! | `rings` | how many edges each vertex is away from points and segments |
+//! | `judge` | which triangles keep their bounds |
+//! | `compact` | the optimiser brings angles within their bounds, and takes vertices out |
 //! | `mesher` | the order of things |
 //! | `paper` | the paper's own way with segments, to compare with |
 //! | `output` | the result |
 //!
-//! Left to others: reading and writing (`hexdel-io`), and how vertices are
-//! removed (`hexdel-optimize`).
+//! Left to others: reading and writing (`hexdel-io`), and how meshes are optimised
+//! (`hexdel-optimize`).
 
 /// The example of the README, so that it stays true.
 #[cfg(doctest)]
@@ -54,11 +55,11 @@ mod estimate;
 mod faces;
 mod fans;
 mod field;
-mod fit;
 mod geometry;
 mod grown;
 mod hull;
 mod interpolate;
+mod judge;
 mod limits;
 mod locator;
 mod mesher;
@@ -70,6 +71,7 @@ mod paper;
 mod repair;
 mod repeated;
 mod result;
+mod rings;
 mod sectors;
 mod seeds;
 mod sizing;

@@ -6,16 +6,16 @@ use crate::embed::embed;
 use crate::error::PslgError;
 use crate::estimate::refuse_too_many;
 use crate::fans::{Fan, Scene, with_fans};
-use crate::fit::judge::{Judge, Wedges};
-use crate::fit::{count_rings, optimise};
 use crate::grown::{Grown, grown};
 use crate::hull::{refuse_flat, with_hull};
+use crate::judge::{Judge, Wedges};
 use crate::limits::Limits;
 use crate::net::Net;
 use crate::options::{Deadline, Extent, Options, SegmentMethod, Timed};
 use crate::output::{self, Parts};
 use crate::paper;
 use crate::result::PslgMesh;
+use crate::rings::{count_rings, remove_starved};
 use crate::sectors::Sectors;
 use crate::sizing::{Demand, Features, lattice_for, refine};
 use crate::validate::Validated;
@@ -224,7 +224,7 @@ const VAIN: u32 = 2;
 
 /// Triangles beside rings up to which another lattice is tried: all of them must come
 /// out on the same one, and of those meshes with more none has.
-const FEW_BESIDE_RINGS: usize = 8;
+const FEW_BESIDE_RINGS: usize = 16;
 
 /// Lengths of a failed triangle's longest edge between it and the ring to blame.
 const BESIDE_RING: f64 = 4.0;
@@ -305,9 +305,9 @@ impl<'a> Mesher<'a> {
 
     /// A mesh optimised and compacted.
     fn improved(&self, mut net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
-        let excused = |net: &Net, t: u32| self.is_hopeless(net, t);
-        optimise(&mut net, self.judge(), &excused, self.deadline, monitor)?;
-        self.compacted(net, monitor)
+        count_rings(&mut net);
+        remove_starved(&mut net);
+        compact(net, &self.kept(false), self.options.compact.unwrap_or(Effort::Repair), monitor)
     }
 
     /// A better mesh where triangles are too large or too long, if upper bounds are below right angles; none where
@@ -354,10 +354,7 @@ impl<'a> Mesher<'a> {
         if judged && left.iter().filter(|&&t| is_left(t)).count() > MOST_LEFT {
             return Ok(None);
         }
-        // Removals begin with a mesh that keeps its bounds; where there is none, the grid may have one.
-        let net = compact(net, &self.kept(false), Effort::Repair, monitor)?;
-        let last = !self.left(&net).elsewhere.is_empty() || effort == Effort::Repair;
-        if last { Ok(Some(net)) } else { compact(net, &self.kept(false), effort, monitor).map(Some) }
+        compact(net, &self.kept(false), effort, monitor).map(Some)
     }
 
     /// The corners of a hexagon around the input, whose circumradius is so many radii of that.
@@ -421,17 +418,6 @@ impl<'a> Mesher<'a> {
             bad.iter().partition(|&&t| self.is_hopeless(net, t));
         elsewhere.extend(self.limits.iter().flat_map(|limits| limits.exceeded(net)));
         Left { hopeless: hopeless.len(), elsewhere }
-    }
-
-    /// The mesh without the vertices that it can do without. What is still out
-    /// of bounds gets another chance on the way, where it is.
-    fn compacted(&self, net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
-        let effort = match self.options.compact {
-            Some(effort) => effort,
-            None if self.left(&net).elsewhere.is_empty() => return Ok(net),
-            None => Effort::Repair,
-        };
-        compact(net, &self.kept(false), effort, monitor)
     }
 
     fn kept(&self, strict: bool) -> Kept<'_> {

@@ -2,14 +2,13 @@
 
 use crate::error::PslgError;
 use crate::fans::Scene;
-use crate::fit::count_rings;
-use crate::fit::edits::parameter;
-use crate::fit::judge::{FAR_RING, Judge, is_sector};
+use crate::judge::{FAR_RING, Judge, is_sector};
 use crate::limits::Limits;
 use crate::locator::Locator;
 use crate::net::{Kind, NONE, Net};
 use crate::options::{Deadline, SegmentMethod};
 use crate::result::{Exception, PslgMesh, Reason, SegmentEdge};
+use crate::rings::count_rings;
 use crate::sectors::Sectors;
 use crate::validate::Validated;
 use hexdel_geom::delaunay::restore_constrained_delaunay;
@@ -210,7 +209,7 @@ fn edges(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> Vec<SegmentEdge> {
                 found.push((piece, f64::from(t), [a, b], boundary));
                 continue;
             }
-            let [ta, tb] = [a, b].map(|v| parameter(net, v, piece));
+            let [ta, tb] = [a, b].map(|v| net.fraction_of(v, piece));
             let ends = if ta < tb { [a, b] } else { [b, a] };
             found.push((piece, ta.min(tb), ends, boundary));
         }

@@ -2,9 +2,9 @@
 
 use crate::carve::Carving;
 use crate::fans::{Fan, LEAST_DEG, NARROW_DEG, Scene};
-use crate::fit::judge::Wedges;
 use crate::geometry::distance_sq;
 use crate::hull::with_hull;
+use crate::judge::Wedges;
 use crate::options::Extent;
 use crate::validate::{Piece, Validated, spatial_order};
 use hexdel_geom::{DVec2, quality};

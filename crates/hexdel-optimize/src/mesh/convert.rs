@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use hexdel_geom::DVec2;
+use hexdel_geom::predicates::locally_delaunay;
 
 use super::{Mesh, Motion, NONE, Tri};
-use crate::angles::Place;
+use crate::angles::{Measure, Place};
 use crate::constraints::{Line, NOWHERE, in_wedge};
 
 /// A mesh as arrays: what is kept between the rounds of work. Those of vertices
@@ -64,6 +65,39 @@ impl Soup {
             return Place::in_wedge();
         }
         Place::new(v.iter().any(|&v| near[v as usize]), self.bound[t])
+    }
+}
+
+impl Soup {
+    /// The triangles that [`Mesh::has_wrong_side`] tells of, ascending.
+    pub(crate) fn beside_wrong_sides(&self) -> Vec<u32> {
+        if !self.is_constrained() {
+            return Vec::new();
+        }
+        // Sides opposite right angles, and where those are.
+        let mut sides: Vec<([u32; 2], u32, usize)> = Vec::new();
+        for (t, v) in (0..).zip(&self.tris) {
+            let [a, b, c] = v.map(|v| self.pos[v as usize]);
+            let m = Measure::of(a, b, c);
+            for k in (0..3).filter(|&k| m.is_nearly_right(k) && self.bound[t as usize] >> k & 1 == 0) {
+                let (from, to) = (v[(k + 1) % 3], v[(k + 2) % 3]);
+                sides.push(([from.min(to), from.max(to)], t, k));
+            }
+        }
+        sides.sort_unstable();
+        let mut wrong: Vec<u32> = Vec::new();
+        for pair in sides.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            let corner = |(_, t, k): ([u32; 2], u32, usize), i: usize| {
+                self.pos[self.tris[t as usize][(k + i) % 3] as usize]
+            };
+            let [near, far] = [pair[0], pair[1]];
+            if !locally_delaunay(corner(near, 2), corner(near, 0), corner(near, 1), corner(far, 0)) {
+                wrong.extend([near.1, far.1]);
+            }
+        }
+        wrong.sort_unstable();
+        wrong.dedup();
+        wrong
     }
 }
 

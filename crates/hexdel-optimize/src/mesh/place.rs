@@ -2,6 +2,7 @@
 //! much room a vertex has between them.
 
 use hexdel_geom::DVec2;
+use hexdel_geom::predicates::locally_delaunay;
 
 use super::{Mesh, Motion, NONE};
 use crate::angles::Place;
@@ -43,6 +44,24 @@ impl Mesh {
             return Place::in_wedge();
         }
         Place::new(tri.v.iter().any(|&v| self.is_near(v)), tri.bound)
+    }
+
+    /// Whether a side of triangle `t` is not Delaunay, though all angles keep their
+    /// bounds: rounding decides that of a side between two right angles.
+    #[inline]
+    pub(crate) fn has_wrong_side(&self, t: u32) -> bool {
+        self.constrained && {
+            let m = self.measure(t);
+            (0..3).any(|k| m.is_nearly_right(k) && self.is_wrong(t, k))
+        }
+    }
+
+    #[cold]
+    fn is_wrong(&self, t: u32, k: usize) -> bool {
+        self.diamond(t, k).is_some_and(|(_, d)| {
+            let [apex, from, to, far] = d.map(|v| self.pos[v as usize]);
+            !locally_delaunay(to, apex, from, far)
+        })
     }
 
     /// Whether a triangle with these corners lies in a wedge.

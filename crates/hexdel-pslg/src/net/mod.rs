@@ -2,8 +2,7 @@
 //!
 //! Everything in this crate that changes a mesh does it through one operation:
 //! [`Net::replace`] exchanges a connected set of triangles for others with the
-//! same rim. Inside [`Net::mark`] and [`Net::rollback`] every change can be
-//! taken back, so that an optimiser may try and think again.
+//! same rim.
 //!
 //! | module | what |
 //! |---|---|
@@ -85,20 +84,6 @@ impl Tri {
     }
 }
 
-#[derive(Clone)]
-enum Undo {
-    Tri(u32, Tri),
-    Vertex(u32, Vertex),
-}
-
-/// A point in time to go back to.
-#[derive(Clone, Copy)]
-pub(crate) struct Mark {
-    log: usize,
-    tris: usize,
-    vertices: usize,
-}
-
 /// A triangulation. Invariants are those of its parts' fields.
 #[derive(Clone, Default)]
 pub(crate) struct Net {
@@ -108,9 +93,6 @@ pub(crate) struct Net {
     pub(crate) lines: Vec<[DVec2; 2]>,
     /// The first piece at which no part of the plane ends, if there is one.
     pub(crate) soft: Option<u32>,
-    /// What was overwritten, oldest first, while `logging`.
-    log: Vec<Undo>,
-    logging: bool,
 }
 
 impl Net {
@@ -306,7 +288,6 @@ impl Net {
 
     /// Moves a vertex.
     pub(crate) fn move_to(&mut self, v: u32, at: DVec2, kind: Kind) {
-        self.note_vertex(v);
         let vertex = &mut self.vertices[v as usize];
         vertex.at = at;
         vertex.kind = kind;
@@ -314,7 +295,6 @@ impl Net {
 
     /// Sets the count of edges to the nearest constrained vertex.
     pub(crate) fn set_ring(&mut self, v: u32, ring: u32) {
-        self.note_vertex(v);
         self.vertices[v as usize].ring = ring;
     }
 
@@ -322,9 +302,17 @@ impl Net {
     pub(crate) fn constrain(&mut self, a: u32, b: u32, piece: u32) {
         for (a, b) in [(a, b), (b, a)] {
             if let Some((t, i)) = self.find_edge(a, b) {
-                self.note_tri(t);
                 self.tris[t as usize].s[i] = piece;
             }
+        }
+    }
+
+    /// Where on a piece one of its vertices lies, as a fraction of its length.
+    pub(crate) fn fraction_of(&self, v: u32, piece: u32) -> f64 {
+        match self.vertex(v).kind {
+            Kind::Along { piece: p, t } if p == piece => t,
+            _ if self.at(v) == self.lines[piece as usize][0] => 0.0,
+            _ => 1.0,
         }
     }
 
@@ -343,9 +331,6 @@ impl Net {
         let ids: Vec<u32> = (0..new.len())
             .map(|k| old.get(k).copied().unwrap_or((self.tris.len() + k - old.len().min(k)) as u32))
             .collect();
-        for &t in old {
-            self.note_tri(t);
-        }
         self.tris.resize(self.tris.len() + new.len().saturating_sub(old.len()), Tri::GONE);
         for (k, &v) in new.iter().enumerate() {
             let mut tri = Tri { v, n: [NONE; 3], s: [NONE; 3] };
@@ -362,7 +347,6 @@ impl Net {
             }
             self.tris[ids[k] as usize] = tri;
             for v in tri.v {
-                self.note_vertex(v);
                 self.vertices[v as usize].tri = ids[k];
             }
         }
@@ -390,7 +374,6 @@ impl Net {
         if outer == NONE {
             return;
         }
-        self.note_tri(outer);
         let tri = &mut self.tris[outer as usize];
         let i = (0..3).find(|&i| tri.edge(i) == edge).expect("a neighbour has the shared edge");
         tri.n[i] = to;
@@ -398,7 +381,6 @@ impl Net {
 
     /// Takes a vertex that no triangle has any more out of the mesh.
     pub(crate) fn retire(&mut self, v: u32) {
-        self.note_vertex(v);
         let vertex = &mut self.vertices[v as usize];
         vertex.kind = Kind::Gone;
         vertex.tri = NONE;
@@ -435,54 +417,6 @@ impl Net {
         }
         for vertex in self.vertices.iter_mut().filter(|v| v.tri == NONE) {
             vertex.kind = Kind::Gone;
-        }
-    }
-
-    /// From here on changes can be taken back.
-    pub(crate) fn mark(&mut self) -> Mark {
-        self.logging = true;
-        Mark { log: self.log.len(), tris: self.tris.len(), vertices: self.vertices.len() }
-    }
-
-    /// Takes back everything since a mark.
-    pub(crate) fn rollback(&mut self, mark: Mark) {
-        while self.log.len() > mark.log {
-            match self.log.pop().expect("the log is longer than at the mark") {
-                Undo::Tri(t, tri) => self.tris[t as usize] = tri,
-                Undo::Vertex(v, vertex) => self.vertices[v as usize] = vertex,
-            }
-        }
-        self.tris.truncate(mark.tris);
-        self.vertices.truncate(mark.vertices);
-    }
-
-    /// The triangles changed or made since a mark, in order.
-    pub(crate) fn touched(&self, mark: Mark) -> Vec<u32> {
-        let changed = self.log[mark.log..].iter().filter_map(|undo| match undo {
-            Undo::Tri(t, _) => Some(*t),
-            Undo::Vertex(..) => None,
-        });
-        let mut all: Vec<u32> = changed.chain(mark.tris as u32..self.tri_count()).collect();
-        all.sort_unstable();
-        all.dedup();
-        all
-    }
-
-    /// Gives up the possibility to take anything back.
-    pub(crate) fn commit(&mut self) {
-        self.log.clear();
-        self.logging = false;
-    }
-
-    fn note_tri(&mut self, t: u32) {
-        if self.logging {
-            self.log.push(Undo::Tri(t, self.tris[t as usize]));
-        }
-    }
-
-    fn note_vertex(&mut self, v: u32) {
-        if self.logging {
-            self.log.push(Undo::Vertex(v, self.vertices[v as usize]));
         }
     }
 

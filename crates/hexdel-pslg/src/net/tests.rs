@@ -44,18 +44,13 @@ proptest! {
     }
 
     #[test]
-    fn removal_and_rollback_leave_a_mesh(points in points(), which in 0..40_usize) {
+    fn removal_leaves_a_mesh(points in points(), which in 0..40_usize) {
         let mut net = net_of(&points);
-        let before: Vec<[u32; 3]> = net.alive().map(|t| net.tri(t).v).collect();
+        let before = net.alive().count();
         let Place::Vertex(v) = net.locate(points[which % points.len()], NONE) else { panic!() };
-        let mark = net.mark();
         prop_assert!(net.remove(v));
         prop_assert_eq!(net.violation(), None);
-        prop_assert_eq!(net.alive().count() + 2, before.len());
-        net.rollback(mark);
-        prop_assert_eq!(net.violation(), None);
-        let after: Vec<[u32; 3]> = net.alive().map(|t| net.tri(t).v).collect();
-        prop_assert_eq!(after, before);
+        prop_assert_eq!(net.alive().count() + 2, before);
     }
 
     #[test]
