@@ -171,6 +171,17 @@ mod tests {
         assert!(!locally_delaunay(a, b, c, DVec2::new(0.0, 1.0_f64.next_down())));
     }
 
+    /// All on a circle of radius 5, but for `a`, which is 8e-32 outside, so that the angles at `b` and `d` sum to
+    /// more than 180 degrees. Double-double arithmetic cannot tell.
+    #[test]
+    fn what_double_doubles_cannot_tell_is_left_to_the_exact_test() {
+        let [b, c, d] = [DVec2::new(3.0, -4.0), DVec2::new(5.0, 0.0), DVec2::new(4.0, 3.0)];
+        assert!(locally_delaunay(DVec2::new(-5.0, 0.0), b, c, d));
+        let a = DVec2::new(-5.0, 0.5_f64.powi(50));
+        assert_eq!(decided_by_angles([a, b, c, d]), None);
+        assert!(!locally_delaunay(a, b, c, d));
+    }
+
     proptest! {
         /// Cocircular but for rounding, and but for a displacement.
         #[test]

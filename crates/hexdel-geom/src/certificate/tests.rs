@@ -315,6 +315,28 @@ fn edges_at_a_branching_vertex_are_delaunay_or_not_if_two_triangles_share_them()
 }
 
 #[test]
+fn malformed_triangles_do_not_count_for_the_euler_characteristic() {
+    let mut m = sound();
+    let whole = wide(&m);
+    m.triangles.push([0, 0, 1].map(VertexId::new));
+    let c = wide(&m);
+    assert_eq!((c.malformed, c.euler_characteristic, c.disk), (1, whole.euler_characteristic, false));
+}
+
+/// Its Euler characteristic is that of a disk.
+#[test]
+fn a_disk_and_an_annulus_are_no_disk() {
+    let outer = [[0.0, 0.0], [6.0, 0.0], [3.0, 5.0]];
+    let inner = [[2.0, 1.0], [4.0, 1.0], [3.0, 2.0]];
+    let apart = [[10.0, 0.0], [11.0, 0.0], [10.0, 1.0]];
+    let vertices = [outer, inner, apart].concat();
+    let ring = [[0, 1, 3], [3, 1, 4], [1, 2, 4], [4, 2, 5], [2, 0, 5], [5, 0, 3]];
+    let m = mesh(&vertices, &[&ring[..], &[[6, 7, 8]]].concat());
+    let c = wide(&m);
+    assert_eq!((c.manifold, c.euler_characteristic, c.boundary_loops, c.disk), (true, 1, 3, false));
+}
+
+#[test]
 fn t_junction() {
     // Vertex 4 lies on the edge 0-2 of the first triangle.
     let m = mesh(
