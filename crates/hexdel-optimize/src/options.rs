@@ -51,6 +51,9 @@ pub struct Options {
     pub budget: Option<Duration>,
     /// Seed of the random choices.
     pub seed: u64,
+    /// Whether a mesh with segments is returned as it is when angles are left outside
+    /// the bounds before removals. By default vertices are removed all the same.
+    pub bounds_first: bool,
 }
 
 impl Options {
@@ -63,6 +66,13 @@ impl Options {
     #[must_use]
     pub fn with_budget(self, budget: Duration) -> Self {
         Self { budget: Some(budget), ..self }
+    }
+
+    /// The same, but no vertex is removed of a mesh with segments that repair has not
+    /// brought inside the bounds.
+    #[must_use]
+    pub fn with_bounds_first(self) -> Self {
+        Self { bounds_first: true, ..self }
     }
 
     /// The same with another seed.

@@ -214,13 +214,13 @@ impl<'a> Run<'a> {
 
     /// The phases in turn. Motion and removals come before search: what motion
     /// alone does not settle often goes with a vertex, and search is cheaper on
-    /// the coarser mesh. Where there are segments removals begin with a mesh that
-    /// keeps its bounds, or not at all: they take the room that what is left needs.
+    /// the coarser mesh. Where there are segments repair comes first: removals take
+    /// the room that what is left needs.
     fn all(&mut self) -> Result<(), Stop> {
         if self.repairs_first() {
             self.move_all()?;
             self.search()?;
-            if !self.hopeful(false).is_empty() {
+            if self.options.bounds_first && !self.hopeful(false).is_empty() {
                 return Ok(());
             }
         }

@@ -27,6 +27,8 @@ pub(crate) struct Kept<'a> {
     pub(crate) limits: Option<&'a Limits<'a>>,
     /// Whether right angles near segments are to go, too.
     pub(crate) strict: bool,
+    /// Whether vertices are only taken out of a net that keeps its bounds.
+    pub(crate) bounds_first: bool,
     pub(crate) deadline: &'a Deadline,
 }
 
@@ -54,6 +56,7 @@ pub(crate) fn compact(
     };
     let mut options = Options::new(kept.judge.far, effort);
     options.budget = kept.deadline.left();
+    options.bounds_first = kept.bounds_first;
     let mesh = taken.mesh.clone();
     let made = match optimize_constrained(mesh, &taken.vertex_kinds(), &constraints, &options, monitor) {
         Ok(made) => made,

@@ -205,7 +205,7 @@ fn run(
     best = mesher.divided(&best, monitor)?.unwrap_or(best);
     left = mesher.left(&best);
     let best = grown.filter(|grown| mesher.left(grown).score() < left.score()).unwrap_or(best);
-    mesher.finished(best, retries, monitor)
+    mesher.finished(mesher.thinned(best, monitor)?, retries, monitor)
 }
 
 /// What is to be different the next time.
@@ -307,7 +307,17 @@ impl<'a> Mesher<'a> {
     fn improved(&self, mut net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
         count_rings(&mut net);
         remove_starved(&mut net);
-        compact(net, &self.kept(false), self.options.compact.unwrap_or(Effort::Repair), monitor)
+        compact(net, &self.kept(), self.options.compact.unwrap_or(Effort::Repair), monitor)
+    }
+
+    /// A mesh that no retry has brought within its bounds without the vertices that it can do without.
+    fn thinned(&self, net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
+        match self.options.compact {
+            Some(effort) if !self.left(&net).elsewhere.is_empty() && !self.deadline.is_over() => {
+                compact(net, &Kept { bounds_first: false, ..self.kept() }, effort, monitor)
+            }
+            _ => Ok(net),
+        }
     }
 
     /// A better mesh where triangles are too large or too long, if upper bounds are below right angles; none where
@@ -321,7 +331,7 @@ impl<'a> Mesher<'a> {
         let mut left = self.left(net);
         while !left.elsewhere.is_empty() && !self.deadline.is_over() {
             let before = better.as_ref().unwrap_or(net).clone();
-            let next = compact(before, &self.kept(false), Effort::Repair, monitor)?;
+            let next = compact(before, &self.kept(), Effort::Repair, monitor)?;
             let of_next = self.left(&next);
             if of_next.score() >= left.score() {
                 break;
@@ -354,7 +364,7 @@ impl<'a> Mesher<'a> {
         if judged && left.iter().filter(|&&t| is_left(t)).count() > MOST_LEFT {
             return Ok(None);
         }
-        compact(net, &self.kept(false), effort, monitor).map(Some)
+        compact(net, &self.kept(), effort, monitor).map(Some)
     }
 
     /// The corners of a hexagon around the input, whose circumradius is so many radii of that.
@@ -420,13 +430,14 @@ impl<'a> Mesher<'a> {
         Left { hopeless: hopeless.len(), elsewhere }
     }
 
-    fn kept(&self, strict: bool) -> Kept<'_> {
+    fn kept(&self) -> Kept<'_> {
         Kept {
             pieces: &self.scene.pieces,
             sectors: &self.sectors,
             judge: self.judge(),
             limits: self.limits.as_ref(),
-            strict,
+            strict: false,
+            bounds_first: true,
             deadline: self.deadline,
         }
     }
@@ -447,7 +458,7 @@ impl<'a> Mesher<'a> {
         if made.certificate.delaunay || !made.failed.is_empty() || made.budget_spent {
             return Ok(made);
         }
-        let again = compact(net, &self.kept(true), Effort::Repair, monitor)?;
+        let again = compact(net, &Kept { strict: true, ..self.kept() }, Effort::Repair, monitor)?;
         let again = output::finish(again, &parts, retries, monitor)?;
         Ok(if again.certificate.delaunay && again.failed.is_empty() { again } else { made })
     }
