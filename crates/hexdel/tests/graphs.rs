@@ -182,8 +182,8 @@ fn narrow_corners_are_exempt_or_blamed() {
     let apex = made.vertex_of_input()[4].unwrap();
     assert!(made.exempt.iter().all(|e| made.mesh.triangles[e.triangle.index()].contains(&apex)));
 
-    // A fiftieth of a degree, for which the method is not made.
-    let made = triangulate_pslg(&needle(0.02)).unwrap();
+    // A two-hundredth of a degree, for which the method is not made.
+    let made = triangulate_pslg(&needle(0.005)).unwrap();
     let report = made.report();
     assert!(!made.holds() && !report.holds && !report.failed.is_empty());
     assert_eq!(report.certificate.out_of_bounds, report.failed.len() + report.exempt.len());

@@ -189,7 +189,8 @@ impl RawMesh {
         if let Some(found) = made.dual_edges.as_ref().filter(|found| !found.holds())
             && let Some(worst) = found.worst
         {
-            let text = format!("{} dual edges are shorter than {} of their edges", found.below, found.min_ratio);
+            let text =
+                format!("{} dual edges are shorter than {} of their edges", found.below, found.min_ratio);
             failed.push((text, worst.ends[0].midpoint(worst.ends[1])));
         }
         let repairs = made.repairs.iter().flat_map(|report| &report.repairs).map(RepairEntry::new);
