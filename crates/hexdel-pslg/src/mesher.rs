@@ -192,9 +192,14 @@ fn run(
         };
         retries += 1;
         let now = mesher.left(&net);
+        // Of triangles that are only too large others are left each time, until all around is fine enough.
+        let large = now.elsewhere.iter().all(|&t| !mesher.judge().is_out(&net, t));
         if now.score() < left.score() {
             (best, left) = (net, now);
-        } else if ringed > 0 && vain < VAIN {
+        } else if (ringed > 0 || large) && vain < VAIN {
+            if large {
+                mesher.note(&net, &now.elsewhere, &mut wishes);
+            }
             vain += 1;
         } else {
             // What one more level has not helped is not for the next to help.
@@ -219,7 +224,7 @@ struct Wishes {
 /// on how they fall on hexagons, whose sizes are powers of two.
 const SHRUNK: f64 = 0.84;
 
-/// Lattices that may be tried in vain.
+/// Retries in vain with another lattice, or with other triangles too large.
 const VAIN: u32 = 2;
 
 /// Triangles beside rings up to which another lattice is tried: all of them must come
