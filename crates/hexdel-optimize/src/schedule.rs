@@ -84,8 +84,8 @@ pub fn optimize_sized(
 /// edge that must stay is an edge of the mesh returned, or several that lay in
 /// a row along one segment are one; vertices on a segment are the doubles
 /// nearest to points of it. Triangles larger than allowed are divided where that
-/// keeps the bounds; no removal makes one, though repair may. The same holds of
-/// edges longer than [`Constraints::sizing`] wants them.
+/// keeps the bounds; neither removals nor repair make one. Edges longer
+/// than [`Constraints::sizing`] wants them are divided, too; repair may make such ones.
 ///
 /// # Errors
 ///

@@ -228,7 +228,7 @@ const SHRUNK: f64 = 0.84;
 const VAIN: u32 = 2;
 
 /// Triangles beside rings up to which another lattice is tried: all of them must come
-/// out on the same one, and of those meshes with more none has.
+/// out on the same one. One with 14 has; of those with more than 16 none was seen to.
 const FEW_BESIDE_RINGS: usize = 16;
 
 /// Lengths of a failed triangle's longest edge between it and the ring to blame.
@@ -326,7 +326,7 @@ impl<'a> Mesher<'a> {
     }
 
     /// A better mesh where triangles are too large or too long, if upper bounds are below right angles; none where
-    /// nothing helps. Triangles are divided once in each run of the optimiser, and few of them while a mesh made for
+    /// nothing helps. A run of the optimiser divides before removals and at its end, and little while a mesh made for
     /// right angles is far from its bounds, so that more runs divide more.
     fn divided(&self, net: &Net, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
         let mut better: Option<Net> = None;
