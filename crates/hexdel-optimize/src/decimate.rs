@@ -5,9 +5,10 @@
 //! attempt is worth its time, and passes raise the cost they accept.
 
 use crate::mesh::Motion;
-use crate::patch::Sweeps;
+use crate::patch::{Sweeps, Swept};
 use crate::refill::MAX_CORNERS;
 use crate::segment::SegmentHole;
+use crate::spread::Reach;
 use crate::work::{Effort, Work};
 
 /// How hard one pass tries.
@@ -26,59 +27,54 @@ pub(crate) struct Pass {
     pub(crate) patience: Patience,
 }
 
-/// Energies above which an attempt seldom succeeds, by the rings that move; more
-/// rings than entries have the last.
+/// Energies that sweeps find above which an attempt seldom succeeds, as of [`Reach`].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Patience {
-    /// Found by a sweep but the first.
-    sweeps: [f64; 4],
-    /// Left after motion, square radians.
-    left: [f64; 4],
-}
+pub(crate) struct Patience([f64; 4]);
 
-impl Patience {
-    fn sweeps(&self, rings: u8) -> f64 {
-        self.sweeps[usize::from(rings.min(4)) - 1]
-    }
+/// While most attempts succeed.
+pub(crate) const PATIENT: Patience = Patience([0.3, 0.1, 0.03, 0.01]);
 
-    fn left(&self, rings: u8) -> f64 {
-        self.left[usize::from(rings.min(4)) - 1]
-    }
-}
+/// When few succeed, with more rings to move: what the second sweep finds says less, as
+/// the outer rings have not moved yet.
+pub(crate) const LATE: Patience = Patience([0.6, 0.1, 0.03, 0.01]);
 
-/// While most attempts succeed. An energy of 0.3 gives up 2 % of the removals and
-/// saves a sixth of the time that 1.0 takes.
-pub(crate) const PATIENT: Patience = Patience { sweeps: [f64::INFINITY; 4], left: [0.3; 4] };
+/// In meshes with segments, which have fewer vertices to remove, and more fixed ones.
+const AMONG_SEGMENTS: Patience = Patience([f64::INFINITY, 1.0, 0.3, 0.1]);
 
-/// When few succeed: of the attempts that are given up here one of thirty would
-/// have.
-pub(crate) const LATE: Patience = Patience { sweeps: [1.0, 0.4, 0.15, 0.05], left: [0.3, 0.1, 0.03, 0.03] };
+/// Energy below which Newton steps finish a patch among segments at least, square radians.
+const NEAR_AMONG_SEGMENTS: f64 = 0.01;
 
-/// The first pass has so many likely removals that flips do not pay.
-const FIRST: Effort =
-    Effort { sweeps: Sweeps { most: 30, stall: 0.4, hope: f64::INFINITY }, turns: 1, near: 0.0, steps: 0 };
+/// Sweeps of an attempt, at most.
+const SWEEPS: usize = 30;
 
-const REMOVAL: Effort =
-    Effort { sweeps: Sweeps { most: 30, stall: 0.6, hope: f64::INFINITY }, turns: 3, near: 0.0, steps: 6 };
+/// Share of the energy that must be gone after some sweeps for more to follow.
+const STALL: f64 = 0.6;
+
+/// What follows where they stall.
+const FINISH: Effort = Effort {
+    sweeps: Sweeps { most: SWEEPS, stall: STALL, hope: f64::INFINITY },
+    turns: 3,
+    near: 0.0,
+    steps: 6,
+};
 
 /// The passes, each given a new partition of the mesh: cheap and likely
 /// removals first. With the costs of `refill`, four of five attempts at 0.5
 /// succeed while the mesh is fine; on a coarse one, one of ten. One ring is
 /// enough for half of the removals from a fine start.
-pub(crate) const PASSES: [Pass; 13] = [
+pub(crate) const PASSES: [Pass; 12] = [
     early(1, 0.5, 0.0),
-    early(2, 0.5, 0.0),
     early(2, 0.5, 0.0),
     early(2, 0.5, 0.0),
     early(2, 0.6, 0.01),
     late(3, 2, 0.6),
-    late(4, 4, 0.8),
-    late(5, 4, 0.8),
-    late(5, 4, 0.8),
-    late(5, 4, 0.8),
-    late(5, 4, 0.8),
-    late(5, 4, 0.8),
-    late(5, 4, 0.8),
+    late(4, 2, 0.8),
+    late(5, 2, 0.8),
+    late(6, 4, 0.8),
+    late(6, 4, 0.8),
+    late(6, 4, 0.8),
+    late(6, 4, 0.8),
+    late(6, 4, 0.8),
 ];
 
 const fn early(rings: u8, max_cost: f64, near: f64) -> Pass {
@@ -179,24 +175,18 @@ pub(crate) fn drop_vertex(work: &mut Work, v: u32) -> bool {
     refilled
 }
 
-/// Moves ever more rings around `verts` until everything changed holds.
+/// Moves `verts` and what they push until everything changed holds.
 pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
-    work.load(verts);
-    let effort = if pass.rings == 1 { FIRST } else { Effort { near: pass.near, ..REMOVAL } };
-    for ring in 1..=pass.rings {
-        if ring > 1 {
-            work.grow();
-        }
-        let sweeps = Sweeps { hope: pass.patience.sweeps(ring), ..effort.sweeps };
-        let state = work.solve(Effort { sweeps, ..effort });
-        if state.solved {
-            return work.changes_hold();
-        }
-        if state.energy > pass.patience.left(ring) {
-            return false;
-        }
+    let (near, Patience(hope)) = if work.mesh.is_constrained() {
+        (pass.near.max(NEAR_AMONG_SEGMENTS), AMONG_SEGMENTS)
+    } else {
+        (pass.near, pass.patience)
+    };
+    match work.spread(verts, Reach { rings: pass.rings, most: SWEEPS, stall: STALL, hope }) {
+        Swept::Settled => work.changes_hold(),
+        Swept::Stalled if near > 0.0 => work.finish(Effort { near, ..FINISH }).solved && work.changes_hold(),
+        Swept::Stalled | Swept::Hopeless => false,
     }
-    false
 }
 
 /// Removes `v` from its segment if both sides can be brought inside the bounds.

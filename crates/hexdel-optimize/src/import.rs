@@ -179,7 +179,8 @@ fn sectors(soup: &Soup) -> Result<Vec<f64>, OptimizeError> {
     let n = soup.pos.len();
     let vertices = Vertices {
         pos: soup.pos.clone(),
-        motion: soup.motion.clone(),
+        // None is known to be inside yet.
+        motion: vec![Motion::Fixed; n],
         sector: soup.sector.clone(),
         outside: vec![0; n],
         around: Around { source: soup.source.clone(), near: soup.near(), lines: soup.lines.clone() },

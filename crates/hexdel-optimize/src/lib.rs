@@ -62,6 +62,7 @@ mod schedule;
 mod segment;
 mod shake;
 mod sizing;
+mod spread;
 mod work;
 
 pub use constraints::{AreaLimit, Constraints, Hopeless};

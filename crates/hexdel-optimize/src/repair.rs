@@ -9,7 +9,8 @@
 use crate::change::{Action, Finder, apply};
 use crate::decimate::{PATIENT, Pass, try_remove};
 use crate::mesh::{Mesh, Motion};
-use crate::patch::{State, Sweeps};
+use crate::patch::{State, Sweeps, Swept};
+use crate::spread::Reach;
 use crate::work::{Effort, Work};
 
 /// What one round does to each bad triangle.
@@ -96,7 +97,7 @@ pub(crate) fn repair(work: &mut Work, step: Step) {
     // triangle they need not try for the next.
     let mut tried = vec![false; work.mesh.pos.len()];
     for t in work.bad() {
-        if work.patch.visits() >= work.allowance {
+        if work.visits() >= work.allowance {
             return;
         }
         if !work.is_bad(t) || work.hopeful_only && work.is_hopeless(t) {
@@ -162,25 +163,39 @@ pub(crate) fn load_rings(work: &mut Work, verts: &[u32], rings: usize) {
     }
 }
 
-/// Moves ever more rings around `t`; true when that settled the patch.
+/// Moves up to so many rings around `t`; true when that settled all of it.
+///
+/// Among segments each ring is given up before the next one moves, as rings have
+/// other bounds there.
 fn move_rings(work: &mut Work, t: u32, rings: usize) -> bool {
-    let motion = Care::of(&work.mesh).motion;
     let corners = work.mesh.tri[t as usize].v;
-    for r in 1..=rings {
-        load_rings(work, &corners, r);
-        let before = work.patch.state(work.rules).energy;
-        let last = r == rings;
-        work.stats.repairs[0] += 1;
-        let state = work.solve(if last { motion } else { Effort { near: 0.0, ..motion } });
-        if state.solved && work.changes_hold() {
-            work.stats.repairs[1] += 1;
-            work.commit();
+    let first = if work.mesh.is_constrained() {
+        1
+    } else {
+        let reach =
+            Reach { rings: rings as u8, most: MOTION.most, stall: MOTION.stall, hope: [MOTION.hope; 4] };
+        let settled = work.spread(&corners, reach) == Swept::Settled;
+        if keep_if_solved(work, settled) {
             return true;
         }
-        if last && state.energy < KEEP_BELOW * before && work.stays_valid() {
-            work.commit();
-            return false;
-        }
+        work.mesh.rollback();
+        rings
+    };
+    (first..=rings).any(|r| move_patch(work, &corners, r, r == rings))
+}
+
+/// Moves the patch of so many rings; the last one is kept where it comes nearer, too.
+fn move_patch(work: &mut Work, corners: &[u32], rings: usize, last: bool) -> bool {
+    let motion = Care::of(&work.mesh).motion;
+    load_rings(work, corners, rings);
+    let before = work.patch.state(work.rules).energy;
+    let state = work.solve(if last { motion } else { Effort { near: 0.0, ..motion } });
+    if keep_if_solved(work, state.solved) {
+        return true;
+    }
+    if last && state.energy < KEEP_BELOW * before && work.stays_valid() {
+        work.commit();
+    } else {
         work.mesh.rollback();
     }
     false
@@ -200,7 +215,7 @@ fn try_changes(work: &mut Work, t: u32, most: usize, rings: usize, wide: bool) {
         let Some((before, state)) = attempt(work, change.action, corners, 1, care.screen) else {
             continue;
         };
-        if keep_if_solved(work, state) {
+        if keep_if_solved(work, state.solved) {
             return;
         }
         work.mesh.rollback();
@@ -220,7 +235,7 @@ fn work_out(work: &mut Work, ranked: &[(f64, Action)], corners: [u32; 3], rings:
             let Some((before, state)) = attempt(work, action, corners, r, FINISH) else {
                 continue;
             };
-            if keep_if_solved(work, state) {
+            if keep_if_solved(work, state.solved) {
                 return;
             }
             let valid = work.stays_valid();
@@ -238,9 +253,9 @@ fn work_out(work: &mut Work, ranked: &[(f64, Action)], corners: [u32; 3], rings:
     }
 }
 
-fn keep_if_solved(work: &mut Work, state: State) -> bool {
+fn keep_if_solved(work: &mut Work, solved: bool) -> bool {
     work.stats.repairs[0] += 1;
-    let solved = state.solved && work.changes_hold();
+    let solved = solved && work.changes_hold();
     if solved {
         work.stats.repairs[1] += 1;
         work.commit();

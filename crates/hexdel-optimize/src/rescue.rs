@@ -24,10 +24,10 @@ pub(crate) fn rescue(work: &mut Work, allowance: u64) {
     work.hopeful_only = true;
     let mut left = hopeful(work);
     let many = left.len();
-    work.allowance = work.patch.visits().saturating_add(allowance.saturating_mul(many as u64));
+    work.allowance = work.visits().saturating_add(allowance.saturating_mul(many as u64));
     for (rings, times) in TRIES {
         for t in left {
-            if work.is_bad(t) && work.patch.visits() < work.allowance {
+            if work.is_bad(t) && work.visits() < work.allowance {
                 refine_and_repair(work, t, (rings, times));
             }
         }
@@ -37,8 +37,8 @@ pub(crate) fn rescue(work: &mut Work, allowance: u64) {
         }
     }
     if left.len() < many {
-        for pass in &PASSES[1..] {
-            decimate(work, *pass);
+        for &pass in &PASSES[1..] {
+            decimate(work, pass);
         }
     }
 }

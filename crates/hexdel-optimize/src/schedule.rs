@@ -125,11 +125,11 @@ fn run(
 }
 
 /// Passes of removals at fast effort.
-const FAST_PASSES: usize = 1;
+const FAST_PASSES: usize = 3;
 
 /// Passes of removals at standard effort: the later ones take as long again
 /// for a twentieth fewer triangles.
-const STANDARD_PASSES: usize = 8;
+const STANDARD_PASSES: usize = 7;
 
 /// Rings around bad triangles that are one part, in turn: as far as changes
 /// reach, and some more with each round.

@@ -4,12 +4,13 @@ use hexdel_geom::orient2d;
 
 use crate::constraints::Rules;
 use crate::flip::{flip_patch, wants_flip};
-use crate::mesh::{Mesh, Motion};
+use crate::mesh::{Mesh, Motion, Tri};
 use crate::options::Stats;
 use crate::patch::{Patch, State, Sweeps, Swept};
 use crate::random::Random;
 use crate::refill::Refills;
 use crate::sizing::{Sizing, triangle_fits};
+use crate::spread::{Reach, Spread};
 
 /// How long one patch is worked on.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +32,9 @@ pub(crate) struct Work<'a> {
     /// How long the edges of what changes may be, if that matters.
     pub(crate) sizing: Option<&'a dyn Sizing>,
     pub(crate) patch: Patch,
+    spread: Spread,
+    /// Whether the last motion was that of `spread`, not of `patch`.
+    spreads: bool,
     pub(crate) random: Random,
     /// As in `Soup::failed`; as long as the mesh's vertices after a commit.
     pub(crate) failed: Vec<u8>,
@@ -68,6 +72,8 @@ impl<'a> Work<'a> {
             refills,
             sizing: None,
             patch: Patch::default(),
+            spread: Spread::default(),
+            spreads: false,
             random: Random::new(seed),
             failed,
             stats: Stats::default(),
@@ -80,6 +86,7 @@ impl<'a> Work<'a> {
 
     /// Loads the patch around `verts`.
     pub(crate) fn load(&mut self, verts: &[u32]) {
+        self.spreads = false;
         self.patch.load(&self.mesh, verts);
     }
 
@@ -95,6 +102,25 @@ impl<'a> Work<'a> {
         self.seeds.clear();
         self.seeds.extend_from_slice(self.patch.movable());
         self.patch.load(&self.mesh, &self.seeds);
+    }
+
+    /// Moves `verts` and what they push.
+    pub(crate) fn spread(&mut self, verts: &[u32], reach: Reach) -> Swept {
+        self.spreads = true;
+        self.spread.run(&mut self.mesh, self.rules, verts, reach)
+    }
+
+    /// Flips and moves what [`Work::spread`] has moved in vain.
+    pub(crate) fn finish(&mut self, effort: Effort) -> State {
+        self.spreads = false;
+        self.patch.load(&self.mesh, self.spread.moved());
+        let state = if flip_patch(&mut self.mesh, &self.patch) > 0 {
+            self.reload();
+            self.solve(Effort { near: 0.0, ..effort })
+        } else {
+            self.patch.state(self.rules)
+        };
+        if state.solved { state } else { self.close_in(state, effort) }
     }
 
     /// Moves and flips the loaded patch in turn until it is solved, nothing
@@ -120,11 +146,25 @@ impl<'a> Work<'a> {
                 break;
             }
         }
-        if !state.solved && state.energy < effort.near {
-            state = self.patch.newton(self.rules, effort.steps);
-        }
+        self.close_in(state, effort)
+    }
+
+    /// Newton steps where the loaded patch is near enough.
+    fn close_in(&mut self, state: State, effort: Effort) -> State {
+        let near = !state.solved && state.energy < effort.near;
+        let state = if near { self.patch.newton(self.rules, effort.steps) } else { state };
         self.patch.store(&mut self.mesh);
         state
+    }
+
+    /// The triangles at vertices that the last motion could move.
+    fn touched(&self) -> &[u32] {
+        if self.spreads { self.spread.triangles() } else { self.patch.triangles() }
+    }
+
+    /// Triangles that sweeps went over.
+    pub(crate) fn visits(&self) -> u64 {
+        self.patch.visits() + self.spread.visits()
     }
 
     /// Whether everything changed since the last commit keeps the bounds, and
@@ -151,9 +191,9 @@ impl<'a> Work<'a> {
             let [a, b, c] = mesh.tri[t as usize].v.map(|v| mesh.pos[v as usize]);
             !mesh.tri[t as usize].alive() || orient2d(a, b, c) > 0.0
         };
-        let mut valid = self.patch.triangles().iter().all(|&t| turns_left(t));
+        let mut valid = self.touched().iter().all(|&t| turns_left(t));
         mesh.changed(|t| valid = valid && turns_left(t));
-        valid && (!self.rules.limits_areas() || self.areas_hold())
+        valid && !self.patch.collapses() && (!self.rules.limits_areas() || self.areas_hold())
     }
 
     /// Whether what has been near a segment and is no more keeps the bounds
@@ -181,7 +221,7 @@ impl<'a> Work<'a> {
         let mut hold = true;
         self.mesh.changed(|t| hold = hold && self.rules.is_small(corners(t)));
         let is_small = |&t: &u32| !self.mesh.tri[t as usize].alive() || self.rules.is_small(corners(t));
-        hold && self.patch.triangles().iter().all(is_small)
+        hold && self.touched().iter().all(is_small)
     }
 
     /// Whether no edge that changed is longer than wanted.
@@ -193,7 +233,7 @@ impl<'a> Work<'a> {
             let corners = self.mesh.tri[t as usize].v;
             triangle_fits(sizing, corners.map(|v| self.mesh.pos[v as usize]))
         };
-        let mut ok = self.patch.triangles().iter().all(|&t| fits(t));
+        let mut ok = self.touched().iter().all(|&t| fits(t));
         self.mesh.changed(|t| ok = ok && fits(t));
         ok
     }
@@ -201,15 +241,22 @@ impl<'a> Work<'a> {
     fn patch_is_delaunay(&self) -> bool {
         let wrong =
             |t: u32, k: usize| self.mesh.diamond(t, k).is_some_and(|(_, d)| wants_flip(&self.mesh, d));
-        !self.patch.triangles().iter().any(|&t| (0..3).any(|k| wrong(t, k)))
+        !self.touched().iter().any(|&t| (0..3).any(|k| wrong(t, k)))
     }
 
     /// Makes the changes final.
     pub(crate) fn commit(&mut self) {
         self.mesh.commit();
         self.failed.resize(self.mesh.pos.len(), 0);
-        for &v in self.patch.vertices() {
-            self.failed[v as usize] = 0;
+        if self.spreads {
+            let touched = self.spread.triangles().iter().map(|&t| self.mesh.tri[t as usize]);
+            for v in touched.filter(Tri::alive).flat_map(|tri| tri.v) {
+                self.failed[v as usize] = 0;
+            }
+        } else {
+            for &v in self.patch.vertices() {
+                self.failed[v as usize] = 0;
+            }
         }
         debug_assert_eq!(self.mesh.validate(), Ok(()));
     }

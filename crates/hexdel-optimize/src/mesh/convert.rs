@@ -150,8 +150,19 @@ impl Mesh {
             tris.iter().zip(neighbours).zip(bound).map(|((&v, n), bound)| Tri { v, n, bound }).collect();
         let Around { source, near, lines } = around;
         let constrained = !source.is_empty();
-        let journal = Vec::new();
-        Ok(Self { pos, motion, sector, tri, anchor, degree, constrained, source, near, lines, journal })
+        Ok(Self {
+            pos,
+            motion,
+            sector,
+            tri,
+            anchor,
+            degree,
+            constrained,
+            source,
+            near,
+            lines,
+            ..Self::default()
+        })
     }
 }
 

@@ -119,6 +119,8 @@ pub(crate) struct Mesh {
     lines: Arc<[Line]>,
     /// Changes since the last commit, oldest first.
     journal: Vec<Change>,
+    /// Storage of [`Mesh::replace`].
+    scratch: ops::Scratch,
 }
 
 impl Mesh {
@@ -150,9 +152,9 @@ impl Mesh {
     pub(crate) fn around(&self, v: u32, mut f: impl FnMut(u32, usize)) -> bool {
         let first = self.anchor[v as usize];
         let mut t = first;
-        // Back, clockwise, to the rim if there is one.
         let mut closed = true;
-        loop {
+        // A free vertex is inside, and needs no way back, clockwise, to the rim.
+        while !matches!(self.motion[v as usize], Motion::Free) {
             let k = self.tri[t as usize].corner(v);
             let before = self.tri[t as usize].n[(k + 2) % 3];
             if before == NONE {
@@ -170,7 +172,7 @@ impl Mesh {
             f(t, k);
             t = self.tri[t as usize].n[(k + 1) % 3];
             if t == NONE || t == start {
-                return closed;
+                return closed && t != NONE;
             }
         }
     }
@@ -234,6 +236,7 @@ impl Mesh {
         min.sqrt()
     }
 
+    #[inline]
     pub(crate) fn set_pos(&mut self, v: u32, p: DVec2) {
         self.journal.push(Change::Moved(v, self.pos[v as usize]));
         self.pos[v as usize] = p;

@@ -6,8 +6,15 @@ use hexdel_geom::DVec2;
 use super::{Mesh, Motion, NONE, Tri};
 use crate::constraints::line_between;
 
+/// Storage that replacements use in turn.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    outline: Vec<Side>,
+    dropped: Vec<u32>,
+}
+
 /// One directed side of the outline and what lies beyond it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Side {
     from: u32,
     to: u32,
@@ -36,8 +43,9 @@ impl Mesh {
         bound: &[[u32; 2]],
         made: &mut Vec<u32>,
     ) {
-        let outline = self.outline(old);
-        let mut dropped: Vec<u32> = Vec::new();
+        let Scratch { mut outline, mut dropped } = std::mem::take(&mut self.scratch);
+        self.outline(old, &mut outline);
+        dropped.clear();
         for &t in old {
             dropped.extend(self.tri[t as usize].v);
         }
@@ -71,15 +79,16 @@ impl Mesh {
                 self.set_anchor(w, made[base + i]);
             }
         }
-        for v in dropped {
+        for &v in &dropped {
             if !new.iter().any(|w| w.contains(&v)) {
                 self.set_anchor(v, NONE);
             }
         }
+        self.scratch = Scratch { outline, dropped };
     }
 
-    fn outline(&self, old: &[u32]) -> Vec<Side> {
-        let mut sides = Vec::with_capacity(12);
+    fn outline(&self, old: &[u32], sides: &mut Vec<Side>) {
+        sides.clear();
         for &t in old {
             let tri = self.tri[t as usize];
             for k in 0..3 {
@@ -93,7 +102,6 @@ impl Mesh {
                 }
             }
         }
-        sides
     }
 
     /// Tells what lies beyond a side of the outline that its neighbour is `t`

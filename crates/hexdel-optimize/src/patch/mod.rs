@@ -17,7 +17,10 @@ use crate::constraints::Rules;
 use crate::mesh::{Mesh, Motion, NONE};
 
 pub(crate) use newton::Newton;
-pub(crate) use project::{Sweeps, Swept};
+pub(crate) use project::{Push, Sweeps, Swept, WINDOW};
+
+/// The share of the shortest edge at a vertex that is left where it all but meets another.
+const NEARER: f64 = 1e-3;
 
 /// A corner outside the target.
 #[derive(Clone, Copy, Debug)]
@@ -210,6 +213,15 @@ impl Patch {
     /// The triangles of the patch.
     pub(crate) fn triangles(&self) -> &[u32] {
         &self.ids
+    }
+
+    /// Whether a vertex has come so near to another that no motion parts them again.
+    pub(crate) fn collapses(&self) -> bool {
+        let is_near = |i: u32, j: u32| {
+            let unit = self.unit[i as usize].max(self.unit[j as usize]);
+            (self.pos[i as usize] - self.pos[j as usize]).length() < NEARER * unit
+        };
+        self.tris.iter().any(|&[a, b, c]| is_near(a, b) || is_near(b, c) || is_near(c, a))
     }
 
     /// Whether triangle `t` of the mesh belongs to the patch.

@@ -11,7 +11,7 @@
 use hexdel_geom::DVec2;
 
 use super::Patch;
-use crate::angles::Measure;
+use crate::angles::{Limits, Measure};
 use crate::constraints::Rules;
 
 /// Each push goes this many times as far as to the bound. Between 1 and 2 the
@@ -19,7 +19,7 @@ use crate::constraints::Rules;
 const OVER: f64 = 1.6;
 
 /// Sweeps between two looks at the progress.
-const WINDOW: usize = 4;
+pub(crate) const WINDOW: usize = 4;
 
 /// A push changes the sine of an angle by no more than twice this: beyond, the
 /// first order means nothing.
@@ -95,57 +95,91 @@ impl Patch {
                 continue;
             }
             let m = place.view(m, limits);
-            let (low, high) = limits.outside(&m);
-            if low.is_none() && (m.cross <= 0.0 || m.cross.is_nan()) {
-                // Collapsed, or lost beyond all numbers: no push could help.
-                return f64::INFINITY;
-            }
-            if let Some((k, g)) = low {
-                energy += self.push(t, k, g, limits.lower_turn());
-            }
-            if let Some((k, g)) = high {
-                energy += self.push(t, k, g, limits.upper_turn());
+            let Some(pushes) = Push::inside(m, limits) else { return f64::INFINITY };
+            for push in pushes.into_iter().flatten() {
+                energy += self.push(t, push);
             }
         }
         energy
     }
 
-    /// Moves the corners of `t` against `g = cross * turn.x + dot * turn.y`,
-    /// which is negative at corner `k`.
     #[inline]
-    fn push(&mut self, t: [usize; 3], k: usize, g: f64, turn: DVec2) -> f64 {
-        let v = match k {
+    fn push(&mut self, t: [usize; 3], push: Push) -> f64 {
+        let v = push.order(t);
+        let along = self.slides.then(|| v.map(|v| self.along[v]));
+        let motion = push.motion(v.map(|v| self.pos[v]), v.map(|v| self.weight[v]), along);
+        let Some((by, energy)) = motion else { return f64::INFINITY };
+        for i in 0..3 {
+            self.pos[v[i]] += by[i];
+        }
+        energy
+    }
+}
+
+/// What brings one corner of a triangle to its bound.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Push {
+    corner: usize,
+    /// `cross * turn.x + dot * turn.y` at that corner, negative.
+    excess: f64,
+    turn: DVec2,
+}
+
+impl Push {
+    /// The pushes for the corners farthest below and above the target, or none at all
+    /// where a triangle is collapsed, or lost beyond all numbers.
+    #[inline]
+    pub(crate) fn inside(m: Measure, limits: &Limits) -> Option<[Option<Self>; 2]> {
+        let (low, high) = limits.outside(&m);
+        if low.is_none() && (m.cross <= 0.0 || m.cross.is_nan()) {
+            return None;
+        }
+        let push = |turn| move |(corner, excess)| Self { corner, excess, turn };
+        Some([low.map(push(limits.lower_turn())), high.map(push(limits.upper_turn()))])
+    }
+
+    /// The corners of the triangle, that to be pushed first.
+    #[inline]
+    pub(crate) fn order<T: Copy>(&self, t: [T; 3]) -> [T; 3] {
+        match self.corner {
             0 => t,
             1 => [t[1], t[2], t[0]],
             _ => [t[2], t[0], t[1]],
-        };
-        let [a, b, c] = v.map(|v| self.pos[v]);
+        }
+    }
+
+    /// How corners at such positions move, by weights that are the squares of units of
+    /// length, and the square of the motion in these units; none where all are stuck.
+    /// `along` are directions of corners that slide, zero for the others.
+    #[inline]
+    pub(crate) fn motion(
+        &self,
+        [a, b, c]: [DVec2; 3],
+        weight: [f64; 3],
+        along: Option<[DVec2; 3]>,
+    ) -> Option<([DVec2; 3], f64)> {
+        let (g, turn) = (self.excess, self.turn);
         let (u, w) = (b - a, c - a);
         let at_c = turn.x * u.perp() + turn.y * u;
         let at_b = turn.y * w - turn.x * w.perp();
         let mut d = [-(at_b + at_c), at_b, at_c];
-        let weight = v.map(|v| self.weight[v]);
         let mut least = 0.0;
-        if self.slides {
+        if let Some(along) = along {
             least = STUCK * norm(d, weight);
             for i in 0..3 {
-                let along = self.along[v[i]];
-                if along != DVec2::ZERO {
-                    d[i] = along * along.dot(d[i]);
+                if along[i] != DVec2::ZERO {
+                    d[i] = along[i] * along[i].dot(d[i]);
                 }
             }
         }
         let norm = norm(d, weight);
         if norm <= least {
-            return f64::INFINITY;
+            return None;
         }
         let cap = CAP * (u.length_squared() + w.length_squared());
         let inverse = 1.0 / norm;
         let step = OVER * (-g).min(cap) * inverse;
-        for i in 0..3 {
-            self.pos[v[i]] += d[i] * (weight[i] * step);
-        }
-        g * g * inverse
+        Some((std::array::from_fn(|i| d[i] * (weight[i] * step)), g * g * inverse))
     }
 }
 
