@@ -38,11 +38,11 @@ pub(crate) const PATIENT: Patience = Patience([0.3, 0.1, 0.03, 0.01]);
 /// the outer rings have not moved yet.
 pub(crate) const LATE: Patience = Patience([0.6, 0.1, 0.03, 0.01]);
 
-/// In meshes with segments, which have fewer vertices to remove, and more fixed ones.
-const AMONG_SEGMENTS: Patience = Patience([f64::INFINITY, 1.0, 0.3, 0.1]);
+/// Where work is [`patient`](Work::patient).
+const THOROUGH: Patience = Patience([f64::INFINITY, 1.0, 0.3, 0.1]);
 
-/// Energy below which Newton steps finish a patch among segments at least, square radians.
-const NEAR_AMONG_SEGMENTS: f64 = 0.01;
+/// Energy below which Newton steps then finish a patch at least, square radians.
+const THOROUGH_NEAR: f64 = 0.01;
 
 /// Sweeps of an attempt, at most.
 const SWEEPS: usize = 30;
@@ -177,11 +177,8 @@ pub(crate) fn drop_vertex(work: &mut Work, v: u32) -> bool {
 
 /// Moves `verts` and what they push until everything changed holds.
 pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
-    let (near, Patience(hope)) = if work.mesh.is_constrained() {
-        (pass.near.max(NEAR_AMONG_SEGMENTS), AMONG_SEGMENTS)
-    } else {
-        (pass.near, pass.patience)
-    };
+    let (near, Patience(hope)) =
+        if work.patient { (pass.near.max(THOROUGH_NEAR), THOROUGH) } else { (pass.near, pass.patience) };
     match work.spread(verts, Reach { rings: pass.rings, most: SWEEPS, stall: STALL, hope }) {
         Swept::Settled => work.changes_hold(),
         Swept::Stalled if near > 0.0 => work.finish(Effort { near, ..FINISH }).solved && work.changes_hold(),

@@ -42,6 +42,9 @@ pub(crate) struct Work<'a> {
     pub(crate) scratch: Scratch,
     /// Repair stops once sweeps have gone over so many triangles.
     pub(crate) allowance: u64,
+    /// Whether removals take their time: among segments, where fewer vertices can go and
+    /// more are fixed, and in small meshes.
+    pub(crate) patient: bool,
     /// Whether repair leaves triangles alone for which there is no hope.
     pub(crate) hopeful_only: bool,
     /// Vertices handed to the patch.
@@ -67,6 +70,7 @@ impl<'a> Work<'a> {
         seed: u64,
     ) -> Self {
         Self {
+            patient: mesh.is_constrained(),
             mesh,
             rules,
             refills,

@@ -5,8 +5,10 @@ use super::Work;
 use crate::constraints::Rules;
 use crate::decimate::{PASSES, try_remove};
 use crate::mesh::{Around, Mesh, Motion, Vertices};
+use crate::patch::Swept;
 use crate::refill::Refills;
 use crate::shake::shake_at;
+use crate::spread::Reach;
 use hexdel_geom::{AngleBounds, DVec2};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -83,4 +85,51 @@ proptest! {
             prop_assert!(work.mesh.live().count() <= before - usize::from(removed));
         }
     }
+}
+
+/// The middle of the rhombus.
+const MIDDLE: u32 = SIDE * SIDE / 2;
+
+fn reach(rings: u8) -> Reach {
+    Reach { rings, most: 60, stall: 1.0, hope: [f64::INFINITY; 4] }
+}
+
+#[test]
+fn motion_spreads_as_far_as_it_may_and_can_be_taken_back() {
+    let (rules, refills) = (Rules::new(AngleBounds::EXTENDED, None), Refills::new());
+    for (by, rings) in [(0.3, 1), (0.6, 3)] {
+        let mut mesh = rhombus(&[]);
+        mesh.pos[MIDDLE as usize].x += by;
+        let before = mesh.pos.clone();
+        let failed = vec![0; mesh.pos.len()];
+        let mut work = Work::new(mesh, &rules, &refills, failed, 1);
+        assert!(!work.bad().is_empty());
+        assert_eq!(work.spread(&[MIDDLE], reach(rings)), Swept::Settled);
+        assert!(work.bad().is_empty() && work.changes_hold());
+        let steps = |v: u32| {
+            let ([x, y], [p, q]) = ([v % SIDE, v / SIDE], [MIDDLE % SIDE, MIDDLE / SIDE]);
+            let (dx, dy) = (i64::from(x) - i64::from(p), i64::from(y) - i64::from(q));
+            if dx * dy < 0 { dx.abs().max(dy.abs()) } else { (dx + dy).abs() }
+        };
+        let moved: Vec<u32> =
+            (0..SIDE * SIDE).filter(|&v| work.mesh.pos[v as usize] != before[v as usize]).collect();
+        assert!(!moved.is_empty() && moved.iter().all(|&v| steps(v) < i64::from(rings)), "{moved:?}");
+        assert!(rings == 1 || moved.len() > 1, "one vertex alone does not settle it");
+        work.mesh.rollback();
+        assert_eq!(work.mesh.pos, before);
+    }
+}
+
+#[test]
+fn motion_moves_nothing_that_must_stay() {
+    let (rules, refills) = (Rules::new(AngleBounds::EXTENDED, None), Refills::new());
+    let all: Vec<u32> = (0..SIDE * SIDE).collect();
+    let mut mesh = rhombus(&all);
+    mesh.pos[MIDDLE as usize].x += 0.3;
+    let before = mesh.pos.clone();
+    let failed = vec![0; mesh.pos.len()];
+    let mut work = Work::new(mesh, &rules, &refills, failed, 1);
+    assert_eq!(work.spread(&[MIDDLE], reach(3)), Swept::Settled, "no triangle has a vertex that moves");
+    assert!(!work.bad().is_empty(), "what is bad stays bad");
+    assert_eq!(work.mesh.pos, before);
 }
