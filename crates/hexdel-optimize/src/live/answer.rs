@@ -168,6 +168,7 @@ impl LiveMesh {
         other.store.serials = other.store.serials.max(serials);
         other.issued = other.store.serials;
         other.adopted = true;
+        other.draft(self.drafts);
         let mut old = std::mem::replace(self, other);
         old.adopted = true;
         let delta = self.delta_from(&old);

@@ -28,6 +28,8 @@ pub(crate) struct Tools {
     pub(crate) refills: Refills,
     /// How long edges may be.
     pub(crate) sizing: Option<Arc<dyn Sizing>>,
+    /// Triangles that sweeps may go over in the repair of one part.
+    pub(crate) allowance: u64,
 }
 
 impl Tools {
@@ -42,7 +44,7 @@ impl Tools {
     pub(crate) fn free_work(&self, mesh: Mesh, mut failed: Vec<u8>) -> Work<'_> {
         failed.resize(mesh.pos.len(), 0);
         let mut work = Work::new(mesh, &self.rules, &self.refills, failed, 0);
-        work.allowance = ALLOWANCE;
+        work.allowance = self.allowance;
         work
     }
 }
@@ -75,7 +77,10 @@ const ROUNDS: usize = 13;
 
 /// Triangles that sweeps may go over in the repair of one part: some 20 ms. Of the
 /// parts that take longer few are ever settled.
-const ALLOWANCE: u64 = 1_000_000;
+pub(crate) const ALLOWANCE: u64 = 1_000_000;
+
+/// The same for a draft.
+pub(crate) const DRAFT_ALLOWANCE: u64 = 200_000;
 
 /// Weight of the squared angles outside, as in `refill`.
 const SHAPE_WEIGHT: f64 = 0.1;

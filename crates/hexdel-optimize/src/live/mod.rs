@@ -47,7 +47,7 @@ use crate::options::VertexKind;
 use crate::refill::Refills;
 use crate::work::Work;
 use cut::{Cut, rings};
-use insert::{Spot, Tools};
+use insert::{ALLOWANCE, DRAFT_ALLOWANCE, Spot, Tools};
 use locate::Memory;
 use store::{Serials, Store, Vertex};
 use verify::{Bounds, keeps_bounds_here};
@@ -107,6 +107,8 @@ pub struct LiveMesh {
     /// Whether the serial numbers have been in use by a mesh that this one
     /// replaced.
     adopted: bool,
+    /// Whether what becomes superfluous stays.
+    drafts: bool,
 }
 
 /// Rings of triangles around a change that are cut out with it: four of them
@@ -123,6 +125,12 @@ const CROWDED_RINGS: [usize; 2] = [3, 2];
 
 /// Parts that are repaired in vain for one point, at most.
 const MOST_FAILURES: usize = 16;
+
+/// The same for a draft, which is refused where room takes long to make.
+const MOST_DRAFT_FAILURES: usize = 1;
+
+/// Refinements until a point of a draft finds room.
+const MOST_DRAFT_REFINEMENTS: usize = 4;
 
 /// Rings that are refined where a point finds no room, in the order of trying:
 /// one is enough in nine of ten cases.
@@ -190,8 +198,23 @@ impl LiveMesh {
     fn of(store: Store, bounds: Bounds) -> Self {
         let constraints = Constraints { near: bounds.near, ..Constraints::default() };
         let rules = Rules::new(bounds.far, store.constrained.then_some(&constraints));
-        let tools = Tools { rules, refills: Refills::new(), sizing: None };
-        Self { memory: Memory::new(&store), issued: store.serials, store, tools, bounds, adopted: false }
+        let tools = Tools { rules, refills: Refills::new(), sizing: None, allowance: ALLOWANCE };
+        Self {
+            memory: Memory::new(&store),
+            issued: store.serials,
+            store,
+            tools,
+            bounds,
+            adopted: false,
+            drafts: false,
+        }
+    }
+
+    /// Whether changes from now on are drafts: vertices that become superfluous stay, and a point
+    /// for which room takes long to make is refused. The mesh is held to the same bounds.
+    pub fn draft(&mut self, drafts: bool) {
+        self.drafts = drafts;
+        self.tools.allowance = if drafts { DRAFT_ALLOWANCE } else { ALLOWANCE };
     }
 
     /// Numbers of vertices and triangles.
@@ -216,8 +239,12 @@ impl LiveMesh {
             return self.pin(v, p);
         }
         let (mark, serials) = (self.store.mark(), self.store.serials);
-        let mut failures = 0;
-        for _ in 0..MOST_REFINEMENTS {
+        let (refinements, mut failures) = if self.drafts {
+            (MOST_DRAFT_REFINEMENTS, MOST_FAILURES - MOST_DRAFT_FAILURES)
+        } else {
+            (MOST_REFINEMENTS, 0)
+        };
+        for _ in 0..refinements {
             let spot = self.locate(p)?;
             let crowded = self.is_crowded(spot.triangle, p);
             if !crowded && let Some(v) = self.insert_at(spot, p, mark, false) {
@@ -228,6 +255,9 @@ impl LiveMesh {
             }
         }
         self.reset(mark, serials);
+        if self.drafts {
+            return Err(LiveError::NoRoom { at: p });
+        }
         let spot = self.locate(p)?;
         self.insert_at(spot, p, mark, true).ok_or(LiveError::NoRoom { at: p })
     }
@@ -323,7 +353,9 @@ impl LiveMesh {
         let (work, vertex) = insert::insert(&cut, &self.tools, there, p, search)?;
         if cut.keeps_disk(&work.mesh) {
             let v = cut.put_back(&mut self.store, &work.mesh, &work.failed)[vertex as usize];
-            thin::thin(&mut self.store, &self.tools, v, p);
+            if !self.drafts {
+                thin::thin(&mut self.store, &self.tools, v, p);
+            }
             if self.shorten(mark, false).is_ok() && verify::settle_changes(&mut self.store, mark, self.bounds)
             {
                 return Some(v);

@@ -60,6 +60,9 @@ impl LiveMesh {
         let count = self.store.counts()[1];
         let freed = (self.store.mark(), self.store.serials);
         self.forget_failures(slot);
+        if self.drafts && settle_changes(&mut self.store, mark, self.bounds) {
+            return Ok(());
+        }
         thin::thin(&mut self.store, &self.tools, slot, old.at);
         if self.mend(mark) && self.shorten(mark, false).is_ok() {
             self.thin_changed(mark, MOST_THINNINGS);

@@ -1,10 +1,30 @@
 //! Hexagons as domains: what is inside, and how far they grow.
 
+use super::Session;
 use crate::placement::MAX_COORDINATE;
 use hexdel_geom::DVec2;
 
 /// How far from the centre points may be after growing, in parts of the way to the rim.
 const ROOM: f64 = 0.75;
+
+impl Session {
+    /// Whether the domain grows by itself for points outside of it, which is not so unless it
+    /// was said. That of a PSLG does not.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Session};
+    /// let mut session = Session::new(&[DVec2::ZERO, DVec2::X], &Mesher::new())?.growing(true);
+    /// let far = session.insert(DVec2::new(9.0, 7.0))?;
+    /// let (_, radius) = far.domain.unwrap();
+    /// assert!(radius > 11.0 && session.certificate().holds());
+    /// # Ok::<(), hexdel::SessionError>(())
+    /// ```
+    #[must_use]
+    pub fn growing(mut self, grows: bool) -> Self {
+        self.grows = grows;
+        self
+    }
+}
 
 /// The radius of a domain doubled until points outside of it have room in it; none if
 /// there are none. Points that are not finite are left to others.

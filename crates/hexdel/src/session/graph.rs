@@ -298,6 +298,7 @@ impl Session {
             frame: Some(Arc::new(frame)),
             told: Arc::new(Told { repairs: made.repairs.clone(), warnings: made.warnings.clone() }),
             changed: 0,
+            drafts: false,
             history: VecDeque::new(),
         };
         let check = session.check();

@@ -10,12 +10,14 @@ mod any;
 mod certificate;
 mod divide;
 mod domain;
+mod draft;
 mod error;
 mod graph;
 mod outcome;
 mod remesh;
 mod saved;
 mod templates;
+mod values;
 
 use crate::mesher::{Mesher, Method};
 use crate::placement::{self, CONFLICT_REACH, FINEST, MAX_COORDINATE, finest_spacing};
@@ -87,6 +89,8 @@ pub struct Session {
     told: Arc<Told>,
     /// Points that have come or gone since the mesh was compared with one made at once.
     changed: usize,
+    /// Whether calls do only what bounds and sizes ask for.
+    drafts: bool,
     /// What undoes the last calls, the last one at the end.
     history: VecDeque<Undo>,
 }
@@ -144,6 +148,7 @@ impl Session {
             frame: None,
             told: Arc::default(),
             changed: 0,
+            drafts: false,
             history: VecDeque::new(),
         })
     }
@@ -204,25 +209,9 @@ impl Session {
             frame: None,
             told: Arc::default(),
             changed: 0,
+            drafts: false,
             history: VecDeque::new(),
         })
-    }
-
-    /// Whether the domain grows by itself for points outside of it, which is not so unless it
-    /// was said. That of a PSLG does not.
-    ///
-    /// ```
-    /// # use hexdel::{DVec2, Mesher, Session};
-    /// let mut session = Session::new(&[DVec2::ZERO, DVec2::X], &Mesher::new())?.growing(true);
-    /// let far = session.insert(DVec2::new(9.0, 7.0))?;
-    /// let (_, radius) = far.domain.unwrap();
-    /// assert!(radius > 11.0 && session.certificate().holds());
-    /// # Ok::<(), hexdel::SessionError>(())
-    /// ```
-    #[must_use]
-    pub fn growing(mut self, grows: bool) -> Self {
-        self.grows = grows;
-        self
     }
 
     /// Puts a point in.
@@ -253,12 +242,13 @@ impl Session {
         let before = self.points.len();
         let present = self.of_slot.len();
         if self.grows
+            && !self.drafts
             && self.frame.is_none()
             && let Some(radius) = reaching((self.centre, self.radius), points)
         {
             return self.insert_by_growing(points, radius);
         }
-        if self.frame.is_none() && points.len() >= BATCH && points.len() >= present {
+        if self.frame.is_none() && !self.drafts && points.len() >= BATCH && points.len() >= present {
             return self.insert_by_remeshing(points);
         }
         for &point in points {
@@ -270,6 +260,9 @@ impl Session {
                 }
                 Err(Refused::NoRoom) => {
                     self.abandon(before);
+                    if self.drafts {
+                        return Err(SessionError::NoRoom { at: point });
+                    }
                     if let Some(frame) = self.frame.clone() {
                         return self.insert_by_remeshing_graph(&frame, points, point);
                     }

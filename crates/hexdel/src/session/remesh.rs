@@ -142,7 +142,7 @@ impl Session {
         self.changed += changed;
         let points = self.of_slot.len();
         let share = COMPARED.into_iter().find(|c| points <= c.0)?.1;
-        if self.frame.is_some() {
+        if self.frame.is_some() || self.drafts {
             return None;
         }
         let too_short = !was_short && self.is_short(&self.live);

@@ -142,6 +142,7 @@ impl Session {
             frame,
             told: Arc::default(),
             changed: document.changed,
+            drafts: false,
             history: VecDeque::new(),
         };
         let check = session.checked(session.certificate());
