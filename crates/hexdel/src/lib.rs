@@ -47,6 +47,7 @@ struct Guide;
 mod compact;
 mod dual_edges;
 pub mod error;
+mod fault;
 pub mod generate;
 mod graph;
 pub mod mesher;
@@ -72,6 +73,7 @@ pub use hexdel_refine as refine;
 
 pub use dual_edges::MOST_DUAL_EDGE;
 pub use error::Error;
+pub use fault::Fault;
 pub use graph::prepare::PreparedPslg;
 pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry, WarningEntry};
 pub use graph::result::PslgTriangulation;

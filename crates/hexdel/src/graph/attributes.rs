@@ -1,5 +1,6 @@
 //! Attributes of vertices: those of the points given, and between them.
 
+use super::prepare::PreparedPslg;
 use super::result::PslgTriangulation;
 use crate::error::Error;
 use crate::triangulation::Triangulation;
@@ -82,7 +83,7 @@ impl PslgTriangulation {
         if n == 0 {
             return Vec::new();
         }
-        let of_points = self.attributes_of_points(given);
+        let of_points = of_points(&self.graph, self.repairs.as_ref(), given);
         let bare = Pslg {
             points: self.graph.points.clone(),
             segments: self.graph.segments.clone(),
@@ -99,44 +100,68 @@ impl PslgTriangulation {
         }
         all
     }
+}
 
-    /// The attributes of each point of the PSLG that was meshed.
-    fn attributes_of_points(&self, given: &Pslg) -> Vec<f64> {
-        let n = given.attributes_per_point;
-        let Some(report) = &self.repairs else {
-            return given.point_attributes.clone();
-        };
-        let count = self.graph.points.len();
-        let (mut all, mut known) = (vec![0.0; n * count], vec![false; count]);
-        for (i, &p) in report.point_of_input.iter().enumerate() {
-            let p = p as usize;
-            if p < count && !std::mem::replace(&mut known[p], true) {
-                all[p * n..(p + 1) * n].copy_from_slice(given.attributes(i));
-            }
-        }
-        self.fill_crossings(given, report, &known, &mut all);
-        all
+impl PreparedPslg {
+    /// The attributes of each point of the PSLG that is meshed in a row, as many as the points
+    /// `given` have: their own, and where repair has put a point the mean along the segments
+    /// there. None if the points have none.
+    ///
+    /// ```
+    /// # use hexdel::{DVec2, Mesher, Pslg};
+    /// // The diagonals of a square cross.
+    /// let mut given = Pslg::from_points(vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
+    /// given.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]];
+    /// (given.attributes_per_point, given.point_attributes) = (1, vec![0.0, 2.0, 4.0, 2.0]);
+    /// let prepared = Mesher::new().repair().prepared_pslg(&given)?;
+    /// assert_eq!(prepared.point_attributes(&given), [0.0, 2.0, 4.0, 2.0, 2.0]);
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If it is not made of the PSLG given.
+    pub fn point_attributes(&self, given: &Pslg) -> Vec<f64> {
+        of_points(&self.graph, self.repairs.as_ref(), given)
     }
+}
 
-    /// Where segments cross: the mean of what is there along each.
-    fn fill_crossings(&self, given: &Pslg, report: &RepairReport, known: &[bool], all: &mut [f64]) {
-        let n = given.attributes_per_point;
-        let mut through: Vec<(u32, u32)> = Vec::new();
-        for (ends, sources) in self.graph.segments.iter().zip(&report.sources) {
-            let new = ends.iter().filter(|&&p| !known[p as usize]);
-            through.extend(new.flat_map(|&p| sources.iter().map(move |&s| (p, s))));
+/// The attributes of each point of a PSLG that repair has made of the one given.
+fn of_points(graph: &Pslg, repairs: Option<&RepairReport>, given: &Pslg) -> Vec<f64> {
+    let n = given.attributes_per_point;
+    let Some(report) = repairs else {
+        return given.point_attributes.clone();
+    };
+    let count = graph.points.len();
+    let (mut all, mut known) = (vec![0.0; n * count], vec![false; count]);
+    for (i, &p) in report.point_of_input.iter().enumerate() {
+        let p = p as usize;
+        if p < count && !std::mem::replace(&mut known[p], true) {
+            all[p * n..(p + 1) * n].copy_from_slice(given.attributes(i));
         }
-        through.sort_unstable();
-        through.dedup();
-        for crossing in through.chunk_by(|a, b| a.0 == b.0) {
-            let p = crossing[0].0 as usize;
-            for &(_, segment) in crossing {
-                let [a, b] = given.segments[segment as usize].map(|p| p as usize);
-                let t = along(given.points[a], given.points[b], self.graph.points[p]);
-                for k in 0..n {
-                    let value = (1.0 - t) * given.attributes(a)[k] + t * given.attributes(b)[k];
-                    all[p * n + k] += value / crossing.len() as f64;
-                }
+    }
+    fill_crossings(graph, given, report, &known, &mut all);
+    all
+}
+
+/// Where segments cross: the mean of what is there along each.
+fn fill_crossings(graph: &Pslg, given: &Pslg, report: &RepairReport, known: &[bool], all: &mut [f64]) {
+    let n = given.attributes_per_point;
+    let mut through: Vec<(u32, u32)> = Vec::new();
+    for (ends, sources) in graph.segments.iter().zip(&report.sources) {
+        let new = ends.iter().filter(|&&p| !known[p as usize]);
+        through.extend(new.flat_map(|&p| sources.iter().map(move |&s| (p, s))));
+    }
+    through.sort_unstable();
+    through.dedup();
+    for crossing in through.chunk_by(|a, b| a.0 == b.0) {
+        let p = crossing[0].0 as usize;
+        for &(_, segment) in crossing {
+            let [a, b] = given.segments[segment as usize].map(|p| p as usize);
+            let t = along(given.points[a], given.points[b], graph.points[p]);
+            for k in 0..n {
+                let value = (1.0 - t) * given.attributes(a)[k] + t * given.attributes(b)[k];
+                all[p * n + k] += value / crossing.len() as f64;
             }
         }
     }
