@@ -2,7 +2,7 @@
 // package/wasm: package/dist and dist.
 
 import { execFileSync } from "node:child_process";
-import { cpSync, mkdirSync, readFileSync, rmSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, readFileSync, rmSync } from "node:fs";
 import { build } from "esbuild";
 
 process.chdir(import.meta.dirname);
@@ -29,10 +29,11 @@ for (const file of ["index.html", "style.css"]) {
 }
 cpSync("package/wasm/hexdel_web_bg.wasm", "dist/hexdel.wasm");
 
-// The examples are fixtures of the tests.
+// The examples are fixtures of the tests, or the page's own.
 mkdirSync("dist/examples");
 const named = readFileSync("page/src/files.ts", "utf8").matchAll(/file: "([^"]+)"/g);
 for (const [, file] of named) {
-  const folder = file.endsWith(".node") ? "points" : file.endsWith(".poly") ? "graphs" : "polygons";
-  cpSync(`../fixtures/${folder}/${file}`, `dist/examples/${file}`);
+  const folders = ["page/examples", ...["points", "graphs", "polygons"].map((name) => `../fixtures/${name}`)];
+  const from = folders.map((folder) => `${folder}/${file}`).find(existsSync);
+  cpSync(from, `dist/examples/${file}`);
 }

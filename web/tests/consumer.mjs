@@ -11,7 +11,7 @@ import { ROOT, native } from "./native.mjs";
 const fixture = (name) => readFileSync(join(ROOT, "fixtures", name));
 
 /** Formats that the program and the package must write alike, byte for byte. */
-const FORMATS = ["node", "ele", "vtu", "msh", "obj", "json", "ron", "svg"];
+const FORMATS = ["node", "ele", "vtu", "msh", "obj", "json", "ron", "svg", "2dm", "14"];
 
 function assertNative(made, name, ...options) {
   for (const [format, bytes] of native(name, FORMATS, ...options)) {
@@ -125,6 +125,52 @@ test("a session changes the mesh step by step, and back", () => {
   assert.deepEqual(session.arrays().vertices, session.mesh().vertices);
 });
 
+test("a draft keeps the bounds and is taken back", () => {
+  const made = mesh(generate("uniform", 100));
+  const session = made.session();
+  session.draft();
+  const [removed] = session.remove([7]);
+  assert.equal(removed.remeshed, false);
+  for (const x of [0.3, 0.5, 0.7]) {
+    session.insert([[x, 0.4]]);
+    assert.ok(session.mesh().holds);
+    session.undo();
+  }
+  assert.throws(() => session.insert([[90, 90]]), (error) => error.kind === "outside");
+  session.undo();
+  session.draft(false);
+  assert.deepEqual(session.arrays().triangles, made.session().arrays().triangles);
+  const quick = mesh(generate("uniform", 100), { effort: "draft" });
+  assert.ok(quick.holds && quick.certificate.min_angle_deg > 43.8977);
+  assert.ok(quick.triangles.length > made.triangles.length);
+});
+
+test("heights are kept and taken to be between others", () => {
+  const points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]];
+  // A plane: a point without a height gets that of the plane.
+  const plane = ([x, y]) => 1 + 2 * x - y;
+  const heights = points.map((p, i) => (i === 4 ? NaN : plane(p)));
+  const given = input({ points, segments: [], heights });
+  assert.deepEqual([...given.heights], points.map(plane));
+  const made = mesh(given);
+  assert.equal(made.heights.length, made.vertices.length / 2);
+  made.vertexOfInput.forEach((v, i) => assert.equal(made.heights[v], plane(points[i])));
+  const session = made.session();
+  session.move(4, [3, 1]);
+  const [inserted] = session.insert([[2, 2]], [9]);
+  const now = session.mesh();
+  const at = (x, y) => {
+    const found = now.heights.filter((_, v) => now.vertices[2 * v] === x && now.vertices[2 * v + 1] === y);
+    assert.equal(found.length, 1);
+    return found[0];
+  };
+  assert.equal(inserted.points.length, 1);
+  assert.equal(at(2, 2), 9);
+  assert.equal(at(3, 1), plane([1, 2]), "a point that moves keeps its height");
+  assert.equal(mesh(points).heights.length, 0);
+  assert.throws(() => input({ points, segments: [], heights: [1] }), (error) => error.kind === "length");
+});
+
 test("the delta of a session leads from mesh to mesh", () => {
   const session = mesh(generate("uniform", 80)).session();
   const count = () => session.arrays().triangles.length / 3;
@@ -141,9 +187,15 @@ test("hexagons, histogram and angles", async () => {
   await init();
   const points = generate("clusters", 40);
   const made = mesh(points, { method: "templates" });
-  const { offsets, corners, levels } = made.hexagons();
+  const { offsets, corners, levels, classes, classNames } = made.hexagons();
   assert.equal(offsets.length, levels.length + 1);
   assert.equal(2 * offsets.at(-1), corners.length);
+  assert.equal(classes.length, levels.length);
+  const occupied = classes.filter((c) => classNames[c].startsWith("occupied")).length;
+  assert.equal(occupied, 40);
+  // Semi-hexagons have four corners, all others six.
+  classes.forEach((c, i) => assert.equal(offsets[i + 1] - offsets[i], classNames[c] === "semi-hexagon" ? 4 : 6));
+  assert.deepEqual(mesh(points, { method: "simple" }).hexagons().classNames, ["semi-hexagon", "full hexagon", "occupied"]);
   // A mesh that has grown out of the points has none.
   assert.ok(mesh(points, { minAngle: 30 }).hexagons() === undefined);
   const histogram = made.histogram(180);

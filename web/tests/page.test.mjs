@@ -135,7 +135,7 @@ test("files are dropped, and what is saved is what the program writes", async ()
   assert.deepEqual(await page.evaluate(() => [...globalThis.hexdelPage.document().points]), before);
 });
 
-test("options change the mesh; hexagons are shown", async () => {
+test("options change the mesh", async () => {
   const { page } = main;
   await dropFixture(page, "points/five.node");
   await page.fill("#min-angle", "30");
@@ -147,12 +147,6 @@ test("options change the mesh; hexagons are shown", async () => {
   await page.fill("#min-angle", "");
   await page.selectOption("#method", "templates");
   await settled(page);
-  await page.check("#hexagons");
-  await settled(page);
-  assert.ok(await page.evaluate(() => globalThis.hexdelPage.drawing.hexagons.levels.length > 10));
-  assert.ok(await page.isHidden("#hexagons-note"));
-  await shot(page, "hexagons");
-  await page.uncheck("#hexagons");
   await page.selectOption("#method", "compact");
   await page.fill("#min-angle", "59.5");
   await page.press("#min-angle", "Enter");
@@ -162,6 +156,113 @@ test("options change the mesh; hexagons are shown", async () => {
   await page.press("#min-angle", "Enter");
   await settled(page);
   assert.ok(await page.isHidden("#fault"));
+});
+
+/** The hexagons that are shown: how many there are, and how many the legend has of each kind. */
+const hexagons = (page) =>
+  page.evaluate(() => {
+    const { levels, classes, classNames } = globalThis.hexdelPage.drawing.overlays.hexagons;
+    const legend = [...document.querySelectorAll("#grid-legend li")].map((item) => item.textContent);
+    return { count: levels.length, classes: [...new Set(classes)].map((c) => classNames[c]).sort(), legend };
+  });
+
+test("the hexagon grid is shown by level and by class, and follows a drag", async () => {
+  const { page } = main;
+  await dropFixture(page, "points/five.node");
+  await page.selectOption("#hexagons", "levels");
+  await page.fill("#min-angle", "30");
+  await page.press("#min-angle", "Enter");
+  await settled(page);
+  assert.ok(await page.isVisible("#hexagons-note"), "a mesh that has grown has no hexagons");
+  assert.ok(await page.isHidden("#grid-legend"));
+  await page.fill("#min-angle", "");
+  await page.selectOption("#method", "templates");
+  await settled(page);
+  assert.ok(await page.isHidden("#hexagons-note"));
+  const counted = ({ legend }) => legend.reduce((sum, text) => sum + Number(text.split(": ")[1].replaceAll(",", "")), 0);
+  const byLevel = await hexagons(page);
+  assert.match(byLevel.legend[0], /level 0: \d+$/);
+  assert.equal(counted(byLevel), byLevel.count);
+  await shot(page, "hexagons");
+  await page.selectOption("#hexagons", "classes");
+  await settled(page);
+  const byClass = await hexagons(page);
+  assert.equal(counted(byClass), byClass.count);
+  assert.equal(byClass.legend.length, byClass.classes.length);
+  for (const name of ["occupied 1", "occupied 2", "moved centre in ring", "moved centre 1", "moved centre 2"]) {
+    assert.ok(byClass.classes.includes(name), `${name} is not among ${byClass.classes}`);
+  }
+  await page.evaluate(() => globalThis.hexdelPage.drawing.zoom(2.5));
+  await shot(page, "classes");
+  await page.emulateMedia({ colorScheme: "dark" });
+  await settled(page);
+  await shot(page, "classes-dark");
+  await page.emulateMedia({ colorScheme: "light" });
+  await page.click("#fit");
+  const drawn = () => page.evaluate(() => [...globalThis.hexdelPage.drawing.overlays.hexagons.corners.slice(0, 400)].join());
+  const before = await drawn();
+  const [x, y] = await pointOnPage(page, 0);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 20, y + 20);
+  await page.mouse.move(x + 40, y + 30);
+  await page.waitForFunction((before) => [...globalThis.hexdelPage.drawing.overlays.hexagons.corners.slice(0, 400)].join() !== before, before);
+  await page.mouse.up();
+  await settled(page);
+  await page.selectOption("#hexagons", "");
+  await page.selectOption("#method", "compact");
+  await settled(page);
+  assert.ok(await page.isHidden("#grid-legend"));
+});
+
+test("heights stay with their points, into files and links", async () => {
+  const { page } = main;
+  const assertFiles = async (page, name) => {
+    for (const [format, bytes] of native(name, ["14", "2dm", "vtu"])) {
+      assert.ok(bytes.equals(await file(page, format)), `${name} as .${format}`);
+    }
+  };
+  await dropFixture(page, "polygons/geojson/z.geojson");
+  await assertFiles(page, "polygons/geojson/z.geojson");
+  assert.ok((await file(page, "14")).includes("100.5"));
+  await dropFixture(page, "tables/id_east_north.csv");
+  await assertFiles(page, "tables/id_east_north.csv");
+  const heights = (page) => page.evaluate(() => [...globalThis.hexdelPage.document().heights]);
+  const before = await heights(page);
+  assert.equal(before.length, (await counts(page))[0]);
+  assert.ok(before.every(Number.isFinite) && new Set(before).size > 1);
+  // A point between them gets a height when it is saved, and not before.
+  await page.click("[data-tool=points]");
+  await click(page, 0.5, 0.52);
+  await settled(page);
+  assert.deepEqual(await heights(page), [...before, NaN]);
+  const [x, y] = await pointOnPage(page, before.length);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 9, y + 9);
+  await page.mouse.move(x + 20, y + 12);
+  await page.mouse.up();
+  await settled(page);
+  const [input] = await Promise.all([page.waitForEvent("download"), page.click("#save-input")]);
+  assert.equal(input.suggestedFilename(), "id_east_north.csv");
+  const table = readFileSync(await input.path());
+  const saved = new Map();
+  for (const format of ["14", "2dm", "vtu"]) saved.set(format, await file(page, format));
+  await page.click("#link");
+  await page.waitForFunction(() => location.hash.startsWith("#in="));
+  const other = await open(place, {}, new URL(page.url()).hash);
+  assert.deepEqual(await heights(other.page), [...before, NaN]);
+  for (const [format, bytes] of saved) assert.ok(bytes.equals(await file(other.page, format)), format);
+  await other.page.context().close();
+  await drop(page, "id_east_north.csv", table);
+  const filled = await heights(page);
+  assert.deepEqual(filled.slice(0, before.length), before);
+  assert.ok(filled.at(-1) >= Math.min(...before) && filled.at(-1) <= Math.max(...before), String(filled));
+  for (const [format, bytes] of saved) assert.ok(bytes.equals(await file(page, format)), format);
+  await page.click("#undo");
+  await page.click("#undo");
+  await settled(page);
+  assert.deepEqual(await heights(page), [...before, NaN], "undone: the table, then the drag");
 });
 
 test("an error is told in the library's words, at its place, and mended", async () => {
@@ -214,35 +315,57 @@ test("long work shows progress and is cancelled", async () => {
   assert.ok((await facts(page)).holds);
 });
 
-test("the mesh follows a point that is dragged", async (context) => {
+/** Drags a point around for a while, as a mouse that tells its place every 8 ms, and says how often the mesh followed. */
+async function followed(page, index, milliseconds = 1500) {
+  const [x, y] = await pointOnPage(page, index);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  const updates = await page.evaluate(
+    async ({ x, y, milliseconds }) => {
+      const canvas = document.querySelector("#canvas");
+      const before = globalThis.hexdelPage.updates;
+      const begun = performance.now();
+      for (let i = 1; performance.now() - begun < milliseconds; i++) {
+        const at = { clientX: x + 6 * Math.sin(i / 9) + 5, clientY: y + 6 * Math.cos(i / 7) };
+        canvas.dispatchEvent(new PointerEvent("pointermove", { ...at, pointerId: 1, pointerType: "mouse", bubbles: true }));
+        await new Promise((done) => setTimeout(done, 8));
+      }
+      return (1000 * (globalThis.hexdelPage.updates - before)) / (performance.now() - begun);
+    },
+    { x, y, milliseconds },
+  );
+  const live = await facts(page);
+  const verdict = await page.textContent("#verdict");
+  const frame = await page.evaluate(() => Math.min(...[1, 2, 3].map(() => globalThis.hexdelPage.drawing.drawNow())));
+  await page.mouse.up();
+  await settled(page);
+  return { rate: updates, frame, live, verdict };
+}
+
+test("the mesh follows a point that is dragged, in every example", { timeout: 600_000 }, async (context) => {
   const { page } = main;
-  for (const [name, label] of [[undefined, "1,000 points"], ["points/capitals.node", "243 points"], ["graphs/airfoil.poly", "airfoil"]]) {
-    if (name) {
-      await dropFixture(page, name);
+  const labels = await page.$$eval("#example option", (options) => options.map((option) => option.label));
+  const examples = labels.filter((label) => label !== "choose" && !label.includes("error"));
+  assert.ok(examples.length >= 12, examples.join());
+  for (const label of [...examples, "5,000 points"]) {
+    if (label === "5,000 points") {
+      const row = (i) => `${(i * 0.754877666) % 1},${(i * 0.569840291) % 1}`;
+      await drop(page, "many.csv", Buffer.from(`x,y\n${Array.from({ length: 5000 }, (_, i) => row(i)).join("\n")}\n`));
     } else {
-      await page.selectOption("#example", { label: "1,000 uniform points" });
+      await page.selectOption("#example", { label });
       await settled(page);
     }
-    const index = name?.startsWith("graphs") ? 3 : 17;
-    const [x, y] = await pointOnPage(page, index);
-    const before = await page.evaluate(() => globalThis.hexdelPage.updates);
-    await page.mouse.move(x, y);
-    await page.mouse.down();
-    const begun = performance.now();
-    for (let i = 1; performance.now() - begun < 1500; i++) {
-      await page.mouse.move(x + 6 * Math.sin(i / 9) + 5, y + 6 * Math.cos(i / 7));
-      await page.waitForTimeout(8);
-    }
-    const seconds = (performance.now() - begun) / 1000;
-    const updates = (await page.evaluate(() => globalThis.hexdelPage.updates)) - before;
-    const frame = await page.evaluate(() => globalThis.hexdelPage.drawing.drawNow());
-    await page.mouse.up();
-    await settled(page);
-    assert.ok(updates > 1, `${label}: ${updates} updates`);
+    const [points] = await counts(page);
+    const { rate, frame, live, verdict } = await followed(page, points > 17 ? 17 : 0);
+    assert.ok(rate > 1, `${label}: ${rate} updates a second`);
+    assert.ok(live.holds, `${label}: what is shown meanwhile`);
+    assert.match(verdict, /^A draft while dragging\. Holds/, label);
     assert.ok((await facts(page)).holds, label);
-    const ratio = (1000 * seconds) / updates / frame;
+    assert.equal(live.kept, (await facts(page)).kept, label);
+    assert.match(await page.textContent("#verdict"), /^Holds/, label);
     context.diagnostic(
-      `${label}: ${(updates / seconds).toFixed(1)} updates a second, an update takes ${ratio.toFixed(1)} times its drawing (${frame.toFixed(1)} ms)`,
+      `${label}: ${rate.toFixed(1)} updates a second, ${(1000 / rate / frame).toFixed(1)} times the drawing of a frame ` +
+        `(${frame.toFixed(1)} ms), bounds ${live.bounds.map((bound) => bound.toFixed(1)).join(" to ")}`,
     );
   }
 });
@@ -250,7 +373,7 @@ test("the mesh follows a point that is dragged", async (context) => {
 test("a hundred thousand triangles are drawn", async (context) => {
   const { page } = main;
   await page.selectOption("#method", "templates");
-  await page.selectOption("#example", { label: "1,000 uniform points" });
+  await page.selectOption("#example", { label: "1,000 uniform points (paper, e)" });
   await settled(page);
   const { triangles } = await facts(page);
   assert.ok(triangles > 100_000, String(triangles));

@@ -14,7 +14,7 @@ use hexdel::{
     Certificate, DVec2, Domain, ExceptionEntry, Mesher, Pslg, PslgTriangulation, RepairEntry, SegmentMethod,
     SessionCheck, SessionMesh, TriMesh, Triangulation, VertexId,
 };
-use js_sys::{Float32Array, Float64Array, Function, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Function, Uint8Array, Uint32Array};
 use std::io;
 use wasm_bindgen::prelude::*;
 
@@ -87,7 +87,12 @@ impl RawMesh {
         }
     }
 
-    pub(crate) fn of_session(made: SessionMesh, check: SessionCheck, regions: Vec<f64>) -> Self {
+    pub(crate) fn of_session(
+        made: SessionMesh,
+        check: SessionCheck,
+        regions: Vec<f64>,
+        heights: Option<Vec<f64>>,
+    ) -> Self {
         let mut inputs = vec![None; made.mesh.vertices.len()];
         let count = made.points.last().map_or(0, |(id, _)| id.0 as usize + 1);
         let mut vertices = vec![None; count];
@@ -100,9 +105,16 @@ impl RawMesh {
             vertex_of_input: vertices,
             edges: made.edges.iter().map(|e| MarkedEdge { ends: e.ends, marker: e.marker }).collect(),
             regions,
-            heights: None,
+            heights,
             made: Made::Session(Box::new(made), Box::new(check)),
         }
+    }
+
+    /// The heights of the input points, if they have some.
+    pub(crate) fn heights_of_points(&self) -> Option<Vec<f64>> {
+        let heights = self.heights.as_ref()?;
+        let of = |v: &Option<VertexId>| v.map_or(f64::NAN, |v| heights[v.index()]);
+        Some(self.vertex_of_input.iter().map(of).collect())
     }
 
     fn mesh(&self) -> &TriMesh {
@@ -258,6 +270,12 @@ impl RawMesh {
         self.regions.clone()
     }
 
+    /// The height of each vertex; empty if the points have none.
+    #[wasm_bindgen(getter)]
+    pub fn vertex_heights(&self) -> Vec<f64> {
+        self.heights.clone().unwrap_or_default()
+    }
+
     #[wasm_bindgen(getter)]
     pub fn holds(&self) -> bool {
         match &self.made {
@@ -339,11 +357,11 @@ impl RawMesh {
             .done())
     }
 
-    /// The hexagons behind a mesh of points, if it has any: offsets into their corners, and
-    /// levels from the coarsest.
+    /// The hexagons behind a mesh of points, if it has any: offsets into their corners, levels
+    /// from the coarsest, and classes with their names.
     pub fn hexagons(&self) -> JsValue {
         let Made::Points(made, ..) = &self.made else { return JsValue::UNDEFINED };
-        let polygons = made.overlay().polygons;
+        let Overlay { classes, polygons, .. } = made.overlay();
         if polygons.is_empty() {
             return JsValue::UNDEFINED;
         }
@@ -354,10 +372,14 @@ impl RawMesh {
             offsets.push(corners.len() as u32);
         }
         let levels: Vec<u32> = polygons.iter().map(|p| p.level).collect();
+        let of_polygon: Vec<u8> = polygons.iter().map(|p| p.class as u8).collect();
+        let names: js_sys::Array = classes.into_iter().map(|class| JsValue::from(class.label)).collect();
         Record::default()
             .with("offsets", Uint32Array::from(&offsets[..]))
             .with("corners", Float64Array::from(&flat(&corners)[..]))
             .with("levels", Uint32Array::from(&levels[..]))
+            .with("classes", Uint8Array::from(&of_polygon[..]))
+            .with("classNames", names)
             .done()
     }
 

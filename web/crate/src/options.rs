@@ -42,6 +42,7 @@ enum MethodName {
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum EffortName {
+    Draft,
     Fast,
     #[default]
     Standard,
@@ -187,6 +188,7 @@ impl Options {
 
     fn effort(&self) -> Effort {
         match self.effort {
+            EffortName::Draft => Effort::Repair,
             EffortName::Fast => Effort::Fast,
             EffortName::Standard => Effort::Standard,
             EffortName::Best => Effort::Best,

@@ -13,6 +13,9 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct RawSession {
     session: Session,
+    /// The height of each point by its number, as far as points have some. Those that are not
+    /// known, which are no numbers, are between those of others.
+    heights: Vec<f64>,
     /// How many steps of the session each call took, the last one at the end.
     steps: Vec<u8>,
 }
@@ -28,7 +31,8 @@ impl RawSession {
         } else {
             Session::new(&graph.pslg.points, &mesher)
         };
-        session.map(Self::of).map_err(|error| errors::of_session(&error))
+        let session = session.map_err(|error| errors::of_session(&error))?;
+        Ok(Self { heights: graph.of_points().unwrap_or_default(), ..Self::of(session) })
     }
 
     /// A mesh that has been made of points, as a session.
@@ -36,8 +40,8 @@ impl RawSession {
         let Made::Points(made, mesher) = &mesh.made else {
             return Err(errors::plain("option", "only the mesh of points becomes a session"));
         };
-        let session = Session::of((**made).clone(), mesher);
-        session.map(Self::of).map_err(|error| errors::of_session(&error))
+        let session = Session::of((**made).clone(), mesher).map_err(|error| errors::of_session(&error))?;
+        Ok(Self { heights: mesh.heights_of_points().unwrap_or_default(), ..Self::of(session) })
     }
 
     /// A hexagonal domain without points.
@@ -56,23 +60,34 @@ impl RawSession {
         self.session.to_ron().map_err(|error| errors::of_session(&error))
     }
 
-    /// Puts points in, all or none.
-    pub fn insert(&mut self, flat: &[f64]) -> Result<JsValue, JsValue> {
+    /// Whether calls from now on make drafts.
+    pub fn draft(&mut self, drafts: bool) {
+        self.session.draft(drafts);
+    }
+
+    /// Puts points in, all or none, with their heights if they have some.
+    pub fn insert(&mut self, flat: &[f64], heights: &[f64]) -> Result<JsValue, JsValue> {
         let points = points("points", flat)?;
-        self.change(|session| Ok(vec![session.insert_all(&points)?]))
+        self.change(heights, |session| Ok(vec![session.insert_all(&points)?]))
     }
 
     /// Takes points out, all or none.
     pub fn remove(&mut self, ids: &[u32]) -> Result<JsValue, JsValue> {
         let ids: Vec<PointId> = ids.iter().map(|&id| PointId(u64::from(id))).collect();
-        self.change(|session| Ok(vec![session.remove(&ids)?]))
+        self.change(&[], |session| Ok(vec![session.remove(&ids)?]))
     }
 
-    /// Takes points out and puts others in: all of it or nothing.
-    pub fn replace(&mut self, ids: &[u32], flat: &[f64]) -> Result<JsValue, JsValue> {
+    /// Takes points out and puts others in: all of it or nothing. If these are as many and come
+    /// without heights, they keep those of the points before.
+    pub fn replace(&mut self, ids: &[u32], flat: &[f64], heights: &[f64]) -> Result<JsValue, JsValue> {
         let points = points("points", flat)?;
+        let kept: Vec<f64> = if heights.is_empty() && ids.len() == points.len() {
+            ids.iter().map_while(|&id| self.heights.get(id as usize).copied()).collect()
+        } else {
+            heights.to_vec()
+        };
         let ids: Vec<PointId> = ids.iter().map(|&id| PointId(u64::from(id))).collect();
-        self.change(|session| {
+        self.change(&kept, |session| {
             let removed = session.remove(&ids)?;
             match session.insert_all(&points) {
                 Ok(inserted) => Ok(vec![removed, inserted]),
@@ -94,13 +109,13 @@ impl RawSession {
 
     /// Meshes all points anew.
     pub fn renew(&mut self) -> Result<JsValue, JsValue> {
-        self.change(|session| Ok(vec![session.renew()?]))
+        self.change(&[], |session| Ok(vec![session.renew()?]))
     }
 
     /// Sets how long edges may be, by options of which others are left.
     pub fn set_size(&mut self, options: &str) -> Result<JsValue, JsValue> {
         let size = Options::read(options)?.size(false)?;
-        self.change(|session| Ok(vec![session.set_size(size)?]))
+        self.change(&[], |session| Ok(vec![session.set_size(size)?]))
     }
 
     /// Numbers of the points that are there.
@@ -124,11 +139,14 @@ impl RawSession {
     }
 
     /// The mesh as it stands.
-    pub fn mesh(&self) -> RawMesh {
+    pub fn mesh(&self) -> Result<RawMesh, JsValue> {
         let made = self.session.mesh();
+        let height = |id: PointId| self.heights.get(id.0 as usize).copied().filter(|height| !height.is_nan());
+        let heights = self.session.vertex_values(&made, height);
+        let heights = heights.map_err(|error| errors::of_session(&error))?;
         let regions = self.session.region_attributes(&made);
         let regions = if regions.iter().all(|&r| r == 0.0) { Vec::new() } else { regions };
-        RawMesh::of_session(made, self.session.check(), regions)
+        Ok(RawMesh::of_session(made, self.session.check(), regions, heights))
     }
 
     /// The arrays of the mesh as it stands, without its certificate.
@@ -146,15 +164,23 @@ impl RawSession {
 impl RawSession {
     /// The domain follows points out of it, unless it is that of a graph.
     fn of(session: Session) -> Self {
-        Self { session: session.growing(true), steps: Vec::new() }
+        Self { session: session.growing(true), heights: Vec::new(), steps: Vec::new() }
     }
 
+    /// A call that puts points in with these heights.
     fn change(
         &mut self,
+        heights: &[f64],
         call: impl FnOnce(&mut Session) -> Result<Vec<Outcome>, SessionError>,
     ) -> Result<JsValue, JsValue> {
         let outcomes = call(&mut self.session).map_err(|error| errors::of_session(&error))?;
         self.steps.push(outcomes.len() as u8);
+        let inserted = outcomes.last().map_or(&[][..], |outcome| &outcome.points);
+        for (PointId(id), &height) in inserted.iter().zip(heights) {
+            let id = *id as usize;
+            self.heights.resize(self.heights.len().max(id + 1), f64::NAN);
+            self.heights[id] = height;
+        }
         Ok(outcomes_out(outcomes))
     }
 }

@@ -43,6 +43,11 @@ export class Input {
     return this.raw.point_markers;
   }
 
+  /** The height of each point; empty if they have none. */
+  get heights(): Float64Array {
+    return this.raw.point_heights;
+  }
+
   get segmentMarkers(): Int32Array {
     return this.raw.segment_markers;
   }
@@ -120,6 +125,11 @@ export class Mesh {
   /** The attribute of each triangle's region; empty if there are no regions. */
   get regions(): Float64Array {
     return this.raw.regions;
+  }
+
+  /** The height of each vertex, linear between points; empty if the points have none. */
+  get heights(): Float64Array {
+    return this.raw.vertex_heights;
   }
 
   /** Whether everything that was promised is so. */
@@ -207,9 +217,22 @@ export class Session {
     return guarded(() => this.raw.text());
   }
 
-  /** Puts points in, all or none. Their numbers are in the delta. */
-  insert(points: Points): Delta[] {
-    return guarded(() => this.raw.insert(flat(points)) as Delta[]);
+  /**
+   * Whether calls from now on make drafts: they do what the bounds ask for and no more, in a
+   * fraction of the time. Vertices that become superfluous stay; a point outside of the domain
+   * or without room is refused. For what follows a pointer: `undo` the drafts, then make the
+   * call that counts.
+   */
+  draft(drafts = true): void {
+    guarded(() => this.raw.draft(drafts));
+  }
+
+  /**
+   * Puts points in, all or none. Their numbers are in the delta. Heights that are left away are
+   * between those of other points.
+   */
+  insert(points: Points, heights: ArrayLike<number> = []): Delta[] {
+    return guarded(() => this.raw.insert(flat(points), Float64Array.from(heights)) as Delta[]);
   }
 
   /** Takes points out by their numbers, all or none. */
@@ -217,12 +240,16 @@ export class Session {
     return guarded(() => this.raw.remove(Uint32Array.from(ids)) as Delta[]);
   }
 
-  /** Takes points out and puts others in: all of it or nothing, and one call to undo. */
-  replace(ids: ArrayLike<number>, points: Points): Delta[] {
-    return guarded(() => this.raw.replace(Uint32Array.from(ids), flat(points)) as Delta[]);
+  /**
+   * Takes points out and puts others in: all of it or nothing, and one call to undo. As many
+   * points without heights keep those of the points before.
+   */
+  replace(ids: ArrayLike<number>, points: Points, heights: ArrayLike<number> = []): Delta[] {
+    const of = Float64Array.from(heights);
+    return guarded(() => this.raw.replace(Uint32Array.from(ids), flat(points), of) as Delta[]);
   }
 
-  /** Moves a point. It gets a new number, in the last delta. */
+  /** Moves a point. It gets a new number, in the last delta, and keeps its height. */
   move(id: number, to: readonly [number, number]): Delta[] {
     return this.replace([id], [to]);
   }
@@ -351,6 +378,7 @@ function graphOf(of: Points | Pslg | Input): Borrowed {
         Float64Array.from(regions),
         Int32Array.from(graph.pointMarkers ?? []),
         Int32Array.from(graph.segmentMarkers ?? []),
+        Float64Array.from(graph.heights ?? []),
       ),
   );
   return { raw, own: true };

@@ -24,6 +24,8 @@ export interface Pslg {
   readonly holes?: Points;
   readonly regions?: readonly Region[];
   readonly pointMarkers?: ArrayLike<number>;
+  /** Of each point; those that are `NaN` are taken to be between the others. */
+  readonly heights?: ArrayLike<number>;
   readonly segmentMarkers?: ArrayLike<number>;
 }
 
@@ -40,8 +42,11 @@ export type Phase = "refine" | "extract" | "optimize" | "certify";
 export interface Options {
   /** `compact` (the default) has the fewest triangles; `templates` is fast. */
   readonly method?: "compact" | "templates" | "simple";
-  /** How hard the compact method optimises; by default `standard`. */
-  readonly effort?: "fast" | "standard" | "best";
+  /**
+   * How hard the compact method optimises; by default `standard`. `draft` keeps the bounds and
+   * does no more: many triangles, soon.
+   */
+  readonly effort?: "draft" | "fast" | "standard" | "best";
   /** The smallest angle allowed, degrees. */
   readonly minAngle?: number | undefined;
   /** The largest angle allowed, degrees. */
@@ -130,7 +135,19 @@ export interface Hexagons {
   readonly corners: Float64Array;
   /** 0 is the coarsest. */
   readonly levels: Uint32Array;
+  /** What each one is (paper, section 5.1), as an index into `classNames`. */
+  readonly classes: Uint8Array;
+  readonly classNames: readonly ClassName[];
 }
+
+/**
+ * The classes of hexagons. Of `templates` all but `full hexagon` and `occupied`; of `simple`
+ * these two and `semi-hexagon`.
+ */
+export type ClassName =
+  | "semi-hexagon" | "fixed centre" | "fixed centre in ring" | "moved centre in ring" | "occupied 1" | "occupied 2"
+  | "moved centre 1" | "moved centre 2" | "moved centre 3" | "moved centre 4" | "subdivide"
+  | "full hexagon" | "occupied";
 
 /** The formats that meshes are written in, by extension; `formats()` lists them all. */
 export type Format =

@@ -15,6 +15,9 @@ const SCALE = [
   [0xfd, 0xe7, 0x25],
 ] as const;
 
+/** Red, green and blue, to 255. */
+export type Rgb = readonly [number, number, number];
+
 export interface Theme {
   readonly dark: boolean;
   readonly paper: string;
@@ -66,7 +69,7 @@ export function themeOf(dark: boolean): Theme {
 }
 
 /** A colour of the scale, mixed with the paper so that lines stand out. */
-export function scaleColour(t: number, dark: boolean): readonly [number, number, number] {
+export function scaleColour(t: number, dark: boolean): Rgb {
   const position = Math.min(Math.max(t, 0), 1) * (SCALE.length - 1);
   const below = Math.min(Math.floor(position), SCALE.length - 2);
   const [from, to] = [SCALE[below], SCALE[below + 1]] as const;
@@ -101,6 +104,6 @@ function tableOf(dark: boolean): Uint32Array {
 }
 
 /** Images have red first in memory, which is the low byte on every machine of today. */
-function word([r, g, b]: readonly [number, number, number]): number {
+export function word([r, g, b]: Rgb): number {
   return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }

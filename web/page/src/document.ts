@@ -16,6 +16,8 @@ export interface Document {
   readonly regions: readonly Region[];
   /** As long as the points, or empty. */
   readonly pointMarkers: Int32Array;
+  /** As long as the points, or empty. Those that are `NaN` are taken to be between the others. */
+  readonly heights: Float64Array;
   /** As long as the segments, or empty. */
   readonly segmentMarkers: Int32Array;
 }
@@ -26,6 +28,7 @@ export const EMPTY: Document = {
   holes: new Float64Array(),
   regions: [],
   pointMarkers: new Int32Array(),
+  heights: new Float64Array(),
   segmentMarkers: new Int32Array(),
 };
 
@@ -38,7 +41,8 @@ export function place(flat: Float64Array, index: number): Place {
 }
 
 export function withPoint(doc: Document, at: Place): Document {
-  return { ...doc, points: appended(doc.points, at), pointMarkers: marked(doc.pointMarkers) };
+  const heights = doc.heights.length > 0 ? Float64Array.from([...doc.heights, NaN]) : doc.heights;
+  return { ...doc, points: appended(doc.points, at), pointMarkers: marked(doc.pointMarkers), heights };
 }
 
 export function withSegment(doc: Document, a: number, b: number): Document {
@@ -81,7 +85,8 @@ export function withoutPoint(doc: Document, index: number): Document {
   return {
     ...doc,
     points: without(doc.points, 2 * index, 2),
-    pointMarkers: Int32Array.from(doc.pointMarkers).filter((_, i) => i !== index),
+    pointMarkers: doc.pointMarkers.filter((_, i) => i !== index),
+    heights: doc.heights.filter((_, i) => i !== index),
     segments: Uint32Array.from(segments),
     segmentMarkers: doc.segmentMarkers.length > 0 ? Int32Array.from(markers) : doc.segmentMarkers,
   };

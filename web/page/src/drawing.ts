@@ -1,8 +1,9 @@
 // The canvas: what is shown in it, and pointers and keys on it.
 
-import type { Dual, Hexagons } from "../../package/dist/index.js";
 import { type Theme, themeOf } from "./colours.js";
 import { type Document, type Place, extent, withHole, withPoint } from "./document.js";
+import { type Grid, type GridBy, gridOf } from "./grid.js";
+import type { Overlaid } from "./protocol.js";
 import { type DrawnMesh, type Mark, Painter } from "./scene.js";
 import { Chain, type Hit, TOOLS, type Tool, dragged, erased, hitAt } from "./tools.js";
 import { View } from "./view.js";
@@ -37,8 +38,8 @@ interface Gesture {
 
 export class Drawing {
   readonly view = new View();
-  dual: Dual | undefined;
-  hexagons: Hexagons | undefined;
+  overlays: Overlaid = { dual: undefined, hexagons: undefined };
+  gridBy: GridBy = "levels";
   /** Whether changes of points are steps of a session. */
   hasSession = false;
   /** Milliseconds that the last frame took. */
@@ -50,6 +51,7 @@ export class Drawing {
   private theme: Theme = themeOf(false);
   private tool: Tool = "points";
   private mesh: DrawnMesh | undefined;
+  private grid: Grid | undefined;
   private notes: readonly Mark[] = [];
   private fault: Mark | undefined;
   private gesture: Gesture | undefined;
@@ -85,7 +87,7 @@ export class Drawing {
 
   setTheme(theme: Theme): void {
     this.theme = theme;
-    this.refresh();
+    this.setOverlays(this.overlays);
   }
 
   setTool(tool: string): void {
@@ -95,18 +97,29 @@ export class Drawing {
     this.host.toolChanged(this.tool);
   }
 
-  setMesh(mesh: DrawnMesh | undefined): void {
+  /** Shows a mesh with what is to be seen over it. */
+  setMesh(mesh: (DrawnMesh & Overlaid) | undefined): void {
     this.mesh = mesh;
     this.notes = [];
-    if (!mesh) {
-      this.dual = this.hexagons = undefined;
-    }
+    this.setOverlays({ dual: mesh?.dual, hexagons: mesh?.hexagons });
     if (this.fitsNext && mesh) {
       // It covers more than its points.
       this.fitsNext = false;
       this.fit();
     }
     this.refresh();
+  }
+
+  setOverlays(overlays: Overlaid): void {
+    this.overlays = overlays;
+    this.grid = overlays.hexagons && gridOf(overlays.hexagons, this.gridBy, this.theme.dark);
+    this.refresh();
+  }
+
+  /** Colours hexagons by what they are. */
+  setGridBy(by: GridBy): void {
+    this.gridBy = by;
+    this.setOverlays(this.overlays);
   }
 
   setNotes(notes: readonly Mark[]): void {
@@ -163,15 +176,13 @@ export class Drawing {
   drawNow(): number {
     const begun = performance.now();
     const ratio = this.canvas.width / Math.max(1, this.view.width);
-    const { mesh, dual, hexagons, chain } = this;
-    const live = this.gesture?.held !== undefined && this.gesture.moved;
+    const { mesh, grid, chain } = this;
     const held = this.gesture?.held ?? this.taken;
     this.painter.draw(this.context, ratio, this.view, this.theme, {
       doc: this.host.doc(),
       mesh,
-      // They are those of the mesh before.
-      dual: live ? undefined : dual,
-      hexagons: live ? undefined : hexagons,
+      dual: this.overlays.dual,
+      grid,
       marks: this.fault ? [...this.notes, this.fault] : this.notes,
       held: held?.kind === "point" ? held.index : undefined,
       chain: chain.last === undefined ? undefined : placeOf(this.host.doc(), chain.last),

@@ -16,6 +16,8 @@ interface Held {
   readonly r?: readonly Region[];
   readonly pm?: readonly number[];
   readonly sm?: readonly number[];
+  /** Heights; null are those that are not known. */
+  readonly z?: readonly (number | null)[];
   readonly o?: Options;
 }
 
@@ -28,6 +30,8 @@ export async function toFragment(doc: Document, options: Options): Promise<strin
     ...(doc.regions.length > 0 ? { r: doc.regions } : {}),
     ...(doc.pointMarkers.length > 0 ? { pm: [...doc.pointMarkers] } : {}),
     ...(doc.segmentMarkers.length > 0 ? { sm: [...doc.segmentMarkers] } : {}),
+    // JSON has null for what is no number.
+    ...(doc.heights.length > 0 ? { z: [...doc.heights] } : {}),
     ...(Object.keys(options).length > 0 ? { o: options } : {}),
   };
   const packed = await through(new TextEncoder().encode(JSON.stringify(held)), new CompressionStream("deflate-raw"));
@@ -56,6 +60,7 @@ export async function fromFragment(fragment: string): Promise<{ doc: Document; o
     regions: held.r ?? [],
     pointMarkers: Int32Array.from(held.pm ?? []),
     segmentMarkers: Int32Array.from(held.sm ?? []),
+    heights: Float64Array.from(held.z ?? [], (z) => z ?? NaN),
   };
   return { doc, options: held.o ?? {} };
 }

@@ -6,12 +6,10 @@ import { type Theme, themeOf } from "./colours.js";
 import * as d from "./document.js";
 import { Drawing } from "./drawing.js";
 import { EXAMPLES, download, stem } from "./files.js";
+import { gridOf } from "./grid.js";
 import { LONGEST, fromFragment, toFragment } from "./link.js";
-import { element, listNotes, optionsOf, plural, sentence, showCounts, showFacts, showHistogram, showLegend, showOptions } from "./panel.js";
-import type { Facts, Fault, MeshAnswer } from "./protocol.js";
-
-/** More points than so many are not meshed anew while one of them is dragged. */
-const MOST_LIVE = { points: 400, graph: 1000, steps: 5000 };
+import { element, listNotes, optionsOf, plural, sentence, showCounts, showFacts, showGrid, showHistogram, showLegend, showOptions } from "./panel.js";
+import type { Facts, Fault, MeshAnswer, Overlaid, Overlays } from "./protocol.js";
 
 /** Progress is shown of work that takes longer, milliseconds. */
 const PATIENCE = 250;
@@ -26,6 +24,8 @@ let facts: Facts | undefined;
 /** What is to be meshed next, and whether something is being meshed. */
 let wanted: { live: boolean; anew: boolean } | undefined;
 let working: { live: boolean } | undefined;
+/** Whether the drag that goes on has come to where there is no mesh soon. */
+let futile = false;
 let clock: ReturnType<typeof setTimeout> | undefined;
 /** Files that are being opened. */
 let opening = 0;
@@ -79,15 +79,13 @@ function changed(live = false): void {
 
 /** Asks for a mesh. Work for an older input that nobody waits for is ended. */
 function want(live: boolean, anew = false): void {
-  const points = history.current.points.length / 2;
-  const graph = history.current.segments.length > 0;
-  const stepwise = !graph && drawing.hasSession;
-  if (live && points > MOST_LIVE[stepwise ? "steps" : graph ? "graph" : "points"]) {
+  futile &&= live;
+  if (futile) {
     return;
   }
   wanted = { live, anew };
   const slow = live || !element("progress").hidden;
-  if (working && !working.live && slow && !(live && stepwise)) {
+  if (working && !working.live && slow && !(live && drawing.hasSession)) {
     client.cancel();
     drawing.hasSession = false;
   }
@@ -103,18 +101,19 @@ async function work(): Promise<void> {
   const doc = history.current;
   wanted = undefined;
   if (doc.points.length === 0) {
-    showMesh(undefined);
+    showMesh(undefined, false);
     return;
   }
   working = { live };
   clock = setTimeout(() => (element("progress").hidden = false), PATIENCE);
   try {
-    const answer = await client.ask({ kind: "mesh", doc, options, live, anew });
-    globalThis.hexdelPage.updates += 1;
+    const answer = await client.ask({ kind: "mesh", doc, options, live, anew, overlays: overlaysOf() });
     showFault(undefined);
-    showMesh(answer);
-    if (!live) {
-      await showOverlays();
+    if (answer) {
+      globalThis.hexdelPage.updates += 1;
+      showMesh(answer, live);
+    } else {
+      futile = true;
     }
   } catch (error) {
     refused(error);
@@ -150,7 +149,7 @@ client.onprogress = (phase, part) => {
   element("phase").textContent = `Meshing: ${phase}`;
 };
 
-function showMesh(answer: MeshAnswer | undefined): void {
+function showMesh(answer: MeshAnswer | undefined, live: boolean): void {
   const next = answer?.facts;
   if (!answer) {
     facts = undefined;
@@ -158,32 +157,46 @@ function showMesh(answer: MeshAnswer | undefined): void {
     element("status").textContent = "Nothing to mesh yet.";
   } else {
     const least = next?.bounds[0] ?? facts?.bounds[0] ?? 43.9;
-    const { vertices, triangles, angles, edges } = answer;
-    drawing.setMesh({ vertices, triangles, angles, edges, least: Math.min(least, 59) });
-    // While a point is dragged, the figures of the last whole mesh stay.
+    drawing.setMesh({ ...answer, least: Math.min(least, 59) });
+    // Where a drag is followed fast, the figures come now and then.
     facts = next ?? facts;
     drawing.hasSession = answer.hasSession;
+    showGridLegend(answer);
   }
   if (answer && !next) {
     return;
   }
-  showFacts(facts);
+  showFacts(facts, live);
   showHistogram(facts);
   showLegend(Math.min(facts?.bounds[0] ?? 43.9, 59), dark.matches);
-  element("anew").hidden = !answer?.stepwise;
+  element("anew").hidden = live || !answer?.stepwise;
   if (answer && next) {
-    element("status").textContent = sentence(answer, next);
     const notes = [...next.notes.failed, ...next.notes.exempt].slice(0, 200);
     drawing.setNotes(notes.map(({ x, y }) => ({ at: [x, y], kind: "note", label: "" })));
+    if (!live) {
+      element("status").textContent = sentence(answer, next);
+    }
   }
 }
 
+/** What the controls want to be shown over the mesh. */
+function overlaysOf(): Overlays {
+  const grid = element<HTMLSelectElement>("hexagons").value;
+  return { dual: element<HTMLInputElement>("voronoi").checked, hexagons: grid !== "" };
+}
+
 async function showOverlays(): Promise<void> {
-  const [voronoi, hexagons] = ["voronoi", "hexagons"].map((id) => element<HTMLInputElement>(id).checked);
-  drawing.dual = voronoi && facts ? await client.ask({ kind: "dual" }) : undefined;
-  drawing.hexagons = hexagons && facts ? await client.ask({ kind: "hexagons" }) : undefined;
-  element("hexagons-note").hidden = !hexagons || drawing.hexagons !== undefined;
-  drawing.refresh();
+  const grid = element<HTMLSelectElement>("hexagons").value;
+  drawing.setGridBy(grid === "classes" ? "classes" : "levels");
+  const none: Overlaid = { dual: undefined, hexagons: undefined };
+  const shown = facts ? await client.ask({ kind: "overlays", overlays: overlaysOf() }) : none;
+  drawing.setOverlays(shown);
+  showGridLegend(shown);
+}
+
+function showGridLegend({ hexagons }: Overlaid): void {
+  element("hexagons-note").hidden = !overlaysOf().hexagons || hexagons !== undefined;
+  showGrid(hexagons && gridOf(hexagons, drawing.gridBy, dark.matches));
 }
 
 /** Shows an error where it is, in the library's words. */
@@ -241,7 +254,7 @@ function open(doc: d.Document, called: string, warnings: readonly string[] = [])
   name = called;
   listNotes(element("read-notes"), warnings);
   facts = undefined;
-  showFacts(undefined);
+  showFacts(undefined, false);
   showHistogram(undefined);
   drawing.hasSession = false;
   drawing.begin();
@@ -301,13 +314,21 @@ async function save(): Promise<void> {
   }
 }
 
-/** The input as text in Triangle's formats. Numbers read back to the same bits. */
-function saveInput(): void {
-  const { points, segments, holes, regions } = history.current;
-  const n = d.count(history.current);
+/** The input as text: Triangle's formats, of points with heights a table. Numbers read back to the same bits. */
+async function saveInput(): Promise<void> {
+  const doc = history.current;
+  const { points, segments, holes, regions } = doc;
+  const n = d.count(doc);
+  const heights = doc.heights.length > 0 ? await client.ask({ kind: "heights", doc }) : doc.heights;
+  if (heights.length > 0 && n.segments === 0) {
+    const row = (z: number, i: number) => `${points[2 * i]},${points[2 * i + 1]},${z}\n`;
+    download(`${name}.csv`, `x,y,z\n${[...heights].map(row).join("")}`, "text/csv");
+    return;
+  }
   const rows = (flat: ArrayLike<number>) =>
     Array.from({ length: flat.length / 2 }, (_, i) => `${i} ${flat[2 * i]} ${flat[2 * i + 1]}\n`).join("");
-  let text = `${n.points} 2 0 0\n${rows(points)}`;
+  const point = (i: number) => `${i} ${points[2 * i]} ${points[2 * i + 1]}${heights.length > 0 ? ` ${heights[i]}` : ""}\n`;
+  let text = `${n.points} 2 ${heights.length > 0 ? 1 : 0} 0\n${Array.from({ length: n.points }, (_, i) => point(i)).join("")}`;
   if (n.segments > 0) {
     text += `${n.segments} 0\n${rows(segments)}${n.holes}\n${rows(holes)}`;
     const region = (r: (typeof regions)[number], i: number) =>
@@ -373,7 +394,7 @@ function connect(): void {
   on("cancel", "click", cancel);
   on("anew", "click", () => want(false, true));
   on("save", "click", () => void save());
-  on("save-input", "click", saveInput);
+  on("save-input", "click", () => void saveInput().catch(refused));
   on("link", "click", () => void copyLink());
   on("fault-repair", "click", () => {
     element<HTMLInputElement>("repair").checked = true;
@@ -421,6 +442,7 @@ function themed(): void {
   const theme: Theme = themeOf(dark.matches);
   drawing.setTheme(theme);
   showLegend(Math.min(facts?.bounds[0] ?? 43.9, 59), dark.matches);
+  showGridLegend(drawing.overlays);
 }
 
 connect();

@@ -3,6 +3,7 @@
 import type { Notes, Options } from "../../package/dist/index.js";
 import { STEPS, scaleColour } from "./colours.js";
 import { type Document, count } from "./document.js";
+import type { Grid } from "./grid.js";
 import type { Facts, MeshAnswer } from "./protocol.js";
 
 /** Remarks that are listed; the rest is counted. */
@@ -75,7 +76,8 @@ function shortly(angle: number): string {
   return String(Number(angle.toFixed(3)));
 }
 
-export function showFacts(facts: Facts | undefined): void {
+/** The certificate; `live` is whether it is of a draft, while something is dragged. */
+export function showFacts(facts: Facts | undefined, live: boolean): void {
   const verdict = element("verdict");
   const list = element("certificate");
   list.replaceChildren();
@@ -85,7 +87,8 @@ export function showFacts(facts: Facts | undefined): void {
     verdict.className = "verdict";
     return;
   }
-  verdict.textContent = facts.holds ? "Holds: checked from scratch." : "Does not hold.";
+  const holds = facts.holds ? "Holds: checked from scratch." : "Does not hold.";
+  verdict.textContent = live ? `A draft while dragging. ${holds}` : holds;
   verdict.className = facts.holds ? "verdict good" : "verdict bad";
   const excused = facts.notes.exempt.length;
   const rows: [string, string][] = [
@@ -192,4 +195,24 @@ export function showLegend(least: number, dark: boolean): void {
     context.fillRect((i * canvas.width) / STEPS, 0, canvas.width / STEPS + 1, canvas.height);
   }
   element("legend-low").textContent = least.toFixed(1);
+}
+
+/** What the hexagons over the mesh are; none if there are none. */
+export function showGrid(grid: Grid | undefined): void {
+  const list = element("grid-legend");
+  list.hidden = grid === undefined;
+  const items = grid?.kinds.filter(({ count }) => count > 0) ?? [];
+  list.replaceChildren(
+    ...items.map(({ code, name, fill, ink, count }) => {
+      const [item, swatch, words] = [document.createElement("li"), document.createElement("span"), document.createElement("span")];
+      swatch.className = "swatch";
+      swatch.textContent = code;
+      swatch.style.backgroundColor = fill;
+      swatch.style.color = ink;
+      swatch.setAttribute("aria-hidden", "true");
+      words.textContent = `${name}: ${count.toLocaleString("en")}`;
+      item.append(swatch, words);
+      return item;
+    }),
+  );
 }

@@ -3,15 +3,32 @@
 import type { Dual, Hexagons, Kind, Notes, Options, Phase } from "../../package/dist/index.js";
 import type { Document } from "./document.js";
 
+/** What is shown over a mesh. */
+export interface Overlays {
+  readonly dual: boolean;
+  readonly hexagons: boolean;
+}
+
+export interface MeshRequest {
+  readonly kind: "mesh";
+  readonly doc: Document;
+  readonly options: Options;
+  /** Whether something is being dragged: what there is soon is enough. */
+  readonly live: boolean;
+  /** Whether a session is not to be followed. */
+  readonly anew: boolean;
+  readonly overlays: Overlays;
+}
+
 /** A question of the page. */
 export type Request =
-  | { readonly kind: "mesh"; readonly doc: Document; readonly options: Options; readonly live: boolean; readonly anew: boolean }
+  | MeshRequest
   | { readonly kind: "read"; readonly bytes: Uint8Array; readonly name: string }
   | { readonly kind: "generate"; readonly of: Kind; readonly count: number }
   | { readonly kind: "write"; readonly format: string }
   | { readonly kind: "formats" }
-  | { readonly kind: "dual" }
-  | { readonly kind: "hexagons" };
+  | { readonly kind: "heights"; readonly doc: Document }
+  | { readonly kind: "overlays"; readonly overlays: Overlays };
 
 /** What is known of a mesh beside its arrays. */
 export interface Facts {
@@ -31,14 +48,20 @@ export interface Facts {
   readonly histogram: Uint32Array;
 }
 
-export interface MeshAnswer {
+/** What is shown over a mesh, as far as it was asked for and there is any. */
+export interface Overlaid {
+  readonly dual: Dual | undefined;
+  readonly hexagons: Hexagons | undefined;
+}
+
+export interface MeshAnswer extends Overlaid {
   readonly vertices: Float64Array;
   readonly triangles: Uint32Array;
   /** The smallest angle of each triangle, degrees. */
   readonly angles: Float32Array;
   /** Pairs of vertices on segments. */
   readonly edges: Uint32Array;
-  /** None while a point is being dragged. */
+  /** None where a drag goes on and they would take longer than the change. */
   readonly facts: Facts | undefined;
   /** Whether the mesh was changed step by step. */
   readonly stepwise: boolean;
@@ -65,13 +88,14 @@ export interface ReadAnswer {
 
 /** The answers, by kind of question. */
 export interface Answers {
-  mesh: MeshAnswer;
+  /** None if a drag has come to where there is nothing soon. */
+  mesh: MeshAnswer | undefined;
   read: ReadAnswer;
   generate: Document;
   write: Uint8Array;
   formats: readonly string[];
-  dual: Dual;
-  hexagons: Hexagons | undefined;
+  heights: Float64Array;
+  overlays: Overlaid;
 }
 
 /** What goes to the worker: the module first, then questions. */

@@ -1,8 +1,9 @@
 // What is drawn: the mesh, overlays, the input, marks, the keyboard's cursor.
 
-import type { Dual, Hexagons } from "../../package/dist/index.js";
+import type { Dual } from "../../package/dist/index.js";
 import { type Theme, classesOf } from "./colours.js";
 import { type Document, type Place, place } from "./document.js";
+import type { Grid } from "./grid.js";
 import { Raster } from "./raster.js";
 import type { View } from "./view.js";
 
@@ -13,6 +14,9 @@ const LEAST_EDGE = 3.5;
 const POINT_PER_EDGE = 0.25;
 const LEAST_POINT = 1.2;
 const MOST_POINT = 4;
+
+/** Hexagons with sides of fewer pixels have no code in them. */
+const LEAST_CODED = 15;
 
 /** Points of this radius have a ring around them. */
 const RINGED = 2.4;
@@ -37,7 +41,7 @@ export interface Scene {
   readonly doc: Document;
   readonly mesh: DrawnMesh | undefined;
   readonly dual: Dual | undefined;
-  readonly hexagons: Hexagons | undefined;
+  readonly grid: Grid | undefined;
   readonly marks: readonly Mark[];
   /** Points to be told from others: at fault, or held. */
   readonly held: number | undefined;
@@ -61,6 +65,11 @@ export class Painter {
     context.clearRect(0, 0, context.canvas.width, context.canvas.height);
     if (scene.mesh) {
       this.adopt(scene.mesh);
+    }
+    if (scene.grid) {
+      const { hexagons, triangles, kindOfTriangle, words } = scene.grid;
+      this.raster.draw(context, ratio, view, { vertices: hexagons.corners, triangles }, kindOfTriangle, words);
+    } else if (scene.mesh) {
       this.raster.draw(context, ratio, view, scene.mesh, this.classes, theme.triangles);
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -69,8 +78,9 @@ export class Painter {
     if (scene.mesh) {
       stroke(context, view, scene.mesh.vertices, this.lines, theme.edge, 0.7, LEAST_EDGE);
     }
-    if (scene.hexagons) {
-      outlines(context, view, scene.hexagons.offsets, scene.hexagons.corners, theme.hexagon, 1.1);
+    if (scene.grid) {
+      outlines(context, view, scene.grid.hexagons.offsets, scene.grid.hexagons.corners, theme.hexagon, 1.1);
+      drawCodes(context, view, scene.grid);
     }
     if (scene.dual) {
       outlines(context, view, scene.dual.cellOffsets, scene.dual.cellCorners, theme.cell, 0.9);
@@ -213,6 +223,32 @@ function outlines(
   context.strokeStyle = colour;
   context.lineWidth = width;
   context.stroke();
+}
+
+/** The code of each hexagon, where that is large enough to be read. */
+function drawCodes(context: CanvasRenderingContext2D, view: View, { hexagons, kindOf, kinds }: Grid): void {
+  const { offsets, corners } = hexagons;
+  context.font = "600 11px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  for (let h = 0; h < kindOf.length; h++) {
+    const [from, to] = [offsets[h] as number, offsets[h + 1] as number];
+    const [a, b] = [view.toPixels(place(corners, from)), view.toPixels(place(corners, from + 1))];
+    // Semi-hexagons have four corners, and their own colour.
+    if (to - from < 6 || Math.hypot(a[0] - b[0], a[1] - b[1]) < LEAST_CODED) {
+      continue;
+    }
+    const opposite = view.toPixels(place(corners, from + 3));
+    const [x, y] = [(a[0] + opposite[0]) / 2, (a[1] + opposite[1]) / 2];
+    const kind = kinds[kindOf[h] as number];
+    if (kind && x > 0 && y > 0 && x < view.width && y < view.height) {
+      context.fillStyle = kind.ink;
+      // Beside the centre, where a point may be.
+      context.fillText(kind.code, x, y + LEAST_CODED * 0.6);
+    }
+  }
+  context.textAlign = "start";
+  context.textBaseline = "alphabetic";
 }
 
 function drawInput(context: CanvasRenderingContext2D, view: View, theme: Theme, scene: Scene, radius: number): void {

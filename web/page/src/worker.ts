@@ -1,16 +1,29 @@
-// The worker: holds the mesh and, of some thousand points, its session.
+// The worker: holds the mesh and, of up to some thousand points, a session of it.
 
-import { HexdelError, Input, Mesh, Session, formats, generate, init, input, mesh, read } from "../../package/dist/index.js";
+import { HexdelError, Input, Mesh, formats, generate, init, input, mesh, read } from "../../package/dist/index.js";
 import type { Options, Progress } from "../../package/dist/index.js";
 import { EMPTY, type Document } from "./document.js";
-import type { Fault, Facts, FromWorker, MeshAnswer, ReadAnswer, Request, ToWorker } from "./protocol.js";
+import type { Fault, Facts, FromWorker, MeshAnswer, MeshRequest, Overlaid, Overlays, ReadAnswer, Request, ToWorker } from "./protocol.js";
+import { Steps } from "./steps.js";
 
-/** From so many points on, a change is made in a session; fewer are meshed anew as fast. */
-const LEAST_FOR_SESSIONS = 400;
-const MOST_FOR_SESSIONS = 5000;
+/** From so many points on, a change stays in the session; fewer are meshed anew when a drag ends. */
+const LEAST_FOR_STEPS = 400;
 
-/** So many points may change in a session at once. */
-const STEPS = 8;
+/** More points have no session. */
+const MOST_FOR_STEPS = 5000;
+
+/** Up to so many points are meshed anew at each step of a drag that no session follows fast. */
+const MOST_LIVE = 2000;
+
+/** A drag that a session has followed so slowly, milliseconds, so often is not followed by it any more. */
+const SLOW = 40;
+const MOST_SLOW = 2;
+
+/** A draft of the whole mesh has bounds that growth keeps by itself, as meshes have along segments, degrees. */
+const DRAFT_BOUNDS = [30, 90] as const;
+
+/** While a drag goes on, the certificate is a part of so much of the time. */
+const SHARE_OF_FACTS = 0.2;
 
 /** Milliseconds between two reports of progress. */
 const TELL_EVERY = 60;
@@ -20,7 +33,11 @@ const BINS = 180;
 
 let ready: Promise<void>;
 let made: Mesh | undefined;
-let session: { session: Session; options: string; ids: Map<string, number> } | undefined;
+let steps: Steps | undefined;
+/** When a mesh that is being dragged may have its certificate next. */
+let factsFrom = 0;
+/** How often a session has followed the drag that goes on slowly. */
+let slow = 0;
 
 self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   if ("module" in data) {
@@ -56,8 +73,9 @@ function reporting(id: number): Progress {
 function answered(request: Request, progress: Progress): [unknown, Transferable[]] {
   switch (request.kind) {
     case "mesh": {
-      const answer = meshed(request, progress);
-      return [answer, [answer.vertices.buffer, answer.triangles.buffer, answer.angles.buffer] as Transferable[]];
+      const answer = request.live ? drafted(request, progress) : meshed(request, progress);
+      const arrays = answer ? [answer.vertices, answer.triangles, answer.angles, answer.edges] : [];
+      return [answer, arrays.map((array) => array.buffer as ArrayBuffer)];
     }
     case "read":
       return [opened(request.bytes, request.name), []];
@@ -67,10 +85,14 @@ function answered(request: Request, progress: Progress): [unknown, Transferable[
       return [present().write(request.format), []];
     case "formats":
       return [formats(), []];
-    case "dual":
-      return [present().dual(), []];
-    case "hexagons":
-      return [present().hexagons(), []];
+    case "heights": {
+      const graph = input(request.doc);
+      const { heights } = graph;
+      graph.free();
+      return [heights, []];
+    }
+    case "overlays":
+      return [overlaid(present(), request.overlays), []];
   }
 }
 
@@ -81,37 +103,74 @@ function present(): Mesh {
   return made;
 }
 
-function meshed(request: Request & { kind: "mesh" }, progress: Progress): MeshAnswer {
-  const { doc, options, live, anew } = request;
+/** The mesh as the options say, or the session brought to the document. */
+function meshed(request: MeshRequest, progress: Progress): MeshAnswer {
+  const { doc, options, anew, overlays } = request;
   const begun = performance.now();
-  const stepwise = !anew && follows(doc, options, live);
-  if (stepwise && live && session) {
-    const arrays = session.session.arrays();
-    const angles = smallestAngles(arrays.vertices, arrays.triangles);
-    const seconds = (performance.now() - begun) / 1000;
-    return { ...arrays, angles, edges: new Uint32Array(), facts: undefined, stepwise, hasSession: true, seconds };
+  slow = 0;
+  const stepwise = !anew && stepped(doc, options);
+  show(stepwise && steps ? steps.session.mesh() : whole(doc, options, progress));
+  if (!stepwise) {
+    steps?.free();
+    steps = begin(doc, options);
   }
-  const quick: Options = live ? { ...options, effort: "fast" } : options;
-  const next = stepwise && session ? session.session.mesh() : whole(doc, quick, progress);
+  return { ...answerOf(present(), overlays), facts: factsOf(present()), stepwise, hasSession: steps !== undefined, seconds: since(begun) };
+}
+
+/** What there is soon: the session with a draft of what is dragged, or a draft of the whole. */
+function drafted(request: MeshRequest, progress: Progress): MeshAnswer | undefined {
+  const { doc, options, overlays } = request;
+  const begun = performance.now();
+  if (follows(doc, options) && steps) {
+    const answer = { stepwise: true, hasSession: true };
+    if (begun < factsFrom && !overlays.dual) {
+      const arrays = steps.session.arrays();
+      const angles = smallestAngles(arrays.vertices, arrays.triangles);
+      const none = { edges: new Uint32Array(), facts: undefined, dual: undefined, hexagons: undefined };
+      return { ...arrays, angles, ...none, ...answer, seconds: since(begun) };
+    }
+    const changed = performance.now();
+    show(steps.session.mesh());
+    const facts = factsOf(present());
+    const now = performance.now();
+    factsFrom = now + (now - changed) / SHARE_OF_FACTS;
+    return { ...answerOf(present(), overlays), facts, ...answer, seconds: since(begun) };
+  }
+  if (doc.points.length / 2 > MOST_LIVE) {
+    return undefined;
+  }
+  show(whole(doc, draftOf(options), progress));
+  const answer = { stepwise: false, hasSession: steps !== undefined };
+  return { ...answerOf(present(), overlays), facts: factsOf(present()), ...answer, seconds: since(begun) };
+}
+
+/** Options of a draft. Those of methods that do not optimise are kept. */
+function draftOf(options: Options): Options {
+  if ((options.method ?? "compact") !== "compact") {
+    return options;
+  }
+  const [least, most] = DRAFT_BOUNDS;
+  const minAngle = Math.min(options.minAngle ?? least, least);
+  return { ...options, effort: "draft", minAngle, maxAngle: Math.max(options.maxAngle ?? most, most) };
+}
+
+function since(begun: number): number {
+  return (performance.now() - begun) / 1000;
+}
+
+/** What is saved and drawn from now on. */
+function show(next: Mesh): void {
   made?.free();
   made = next;
-  if (!stepwise) {
-    session?.session.free();
-    session = undefined;
-    if (!live) {
-      begin(doc, options);
-    }
-  }
-  return {
-    vertices: made.vertices,
-    triangles: made.triangles,
-    angles: made.smallestAngles(),
-    edges: made.segmentEdges,
-    facts: factsOf(made),
-    stepwise,
-    hasSession: session !== undefined,
-    seconds: (performance.now() - begun) / 1000,
-  };
+}
+
+function answerOf(of: Mesh, overlays: Overlays) {
+  const { vertices, triangles, segmentEdges } = of;
+  return { vertices, triangles, angles: of.smallestAngles(), edges: segmentEdges, ...overlaid(of, overlays) };
+}
+
+function overlaid(of: Mesh, { dual, hexagons }: Overlays): Overlaid {
+  return { dual: dual ? of.dual() : undefined, hexagons: hexagons ? of.hexagons() : undefined };
 }
 
 function whole(doc: Document, options: Options, progress: Progress): Mesh {
@@ -123,69 +182,54 @@ function whole(doc: Document, options: Options, progress: Progress): Mesh {
   }
 }
 
-/** Begins a session of the mesh that was made, if its points are as many as that is for. */
-function begin(doc: Document, options: Options): void {
-  const count = doc.points.length / 2;
-  const fits = count >= LEAST_FOR_SESSIONS && count <= MOST_FOR_SESSIONS && doc.segments.length === 0;
-  const compact = (options.method ?? "compact") === "compact" && options.effort !== "fast";
+/** The session of the mesh that was made, if it can be followed. */
+function begin(doc: Document, options: Options): Steps | undefined {
+  const few = doc.points.length / 2 <= MOST_FOR_STEPS && doc.segments.length === 0;
+  const compact = (options.method ?? "compact") === "compact";
   const plain = options.domain === undefined || options.domain === "hexagon";
-  if (!made || !fits || !compact || !plain) {
-    return;
+  if (!few || !compact || !plain || options.minDualEdge !== undefined) {
+    return undefined;
   }
   try {
-    const begun = made.session();
-    const [ids, points] = [begun.ids, begun.points];
-    const byPlace = new Map<string, number>();
-    ids.forEach((id, i) => byPlace.set(key(points, i), id));
-    session = { session: begun, options: JSON.stringify(options), ids: byPlace };
+    return new Steps(present().session(), doc.points, JSON.stringify(options));
   } catch {
     // Duplicates have no session; they are meshed anew.
+    return undefined;
   }
 }
 
-/** Whether the session follows. What it refuses is tried anew when nothing is being dragged. */
-function follows(doc: Document, options: Options, live: boolean): boolean {
-  try {
-    return stepped(doc, options);
-  } catch (error) {
-    if (live) {
-      throw error;
-    }
+/** Whether the session follows a drag. Where it has no room or takes long, another mesh may not. */
+function follows(doc: Document, options: Options): boolean {
+  const few = doc.points.length / 2 <= MOST_LIVE;
+  if (!steps?.fits(doc, JSON.stringify(options)) || (few && slow >= MOST_SLOW)) {
     return false;
   }
+  const begun = performance.now();
+  const done = accepted(() => steps?.drag(doc));
+  slow += performance.now() - begun > SLOW ? 1 : 0;
+  return done;
 }
 
-/** Brings the session to the document, if few points differ. */
+/** Brings the session to the document, if few of many points differ. What it refuses is meshed anew. */
 function stepped(doc: Document, options: Options): boolean {
-  if (!session || session.options !== JSON.stringify(options) || doc.segments.length > 0) {
+  const many = doc.points.length / 2 >= LEAST_FOR_STEPS && options.effort !== "fast";
+  if (!many || !steps?.fits(doc, JSON.stringify(options))) {
     return false;
   }
-  const wanted = new Set<string>();
-  const inserted: [number, number][] = [];
-  for (let i = 0; i < doc.points.length / 2; i++) {
-    const name = key(doc.points, i);
-    wanted.add(name);
-    if (!session.ids.has(name)) {
-      inserted.push([doc.points[2 * i] ?? NaN, doc.points[2 * i + 1] ?? NaN]);
-    }
-  }
-  const removed = [...session.ids].filter(([name]) => !wanted.has(name));
-  if (inserted.length > STEPS || removed.length > STEPS) {
-    return false;
-  }
-  if (inserted.length + removed.length === 0) {
-    return true;
-  }
-  const ids = removed.map(([, id]) => id);
-  const deltas = ids.length > 0 ? session.session.replace(ids, inserted) : session.session.insert(inserted);
-  removed.forEach(([name]) => session?.ids.delete(name));
-  const numbers = deltas.at(-1)?.points ?? new Float64Array();
-  inserted.forEach(([x, y], i) => session?.ids.set(`${x},${y}`, numbers[i] ?? 0));
-  return true;
+  return accepted(() => steps?.follow(doc));
 }
 
-function key(points: Float64Array, i: number): string {
-  return `${points[2 * i]},${points[2 * i + 1]}`;
+/** Whether a call of the session was not refused. */
+function accepted(call: () => void): boolean {
+  try {
+    call();
+    return true;
+  } catch (error) {
+    if (error instanceof HexdelError && error.kind !== "internal") {
+      return false;
+    }
+    throw error;
+  }
 }
 
 function factsOf(made: Mesh): Facts {
@@ -211,9 +255,9 @@ function factsOf(made: Mesh): Facts {
 function opened(bytes: Uint8Array, name: string): ReadAnswer {
   const file: Input = read(bytes, name);
   const graph = file.hasPolygons ? file.prepared() : file;
-  const { points, segments, holes, regions, pointMarkers, segmentMarkers, warnings } = graph;
+  const { points, segments, holes, regions, pointMarkers, heights, segmentMarkers, warnings } = graph;
   const columns = graph.columns === undefined ? [] : [`columns: ${graph.columns}`];
-  const doc = { points, segments, holes, regions, pointMarkers, segmentMarkers };
+  const doc = { points, segments, holes, regions, pointMarkers, heights, segmentMarkers };
   return { doc, warnings: [...columns, ...warnings] };
 }
 
