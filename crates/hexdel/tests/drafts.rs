@@ -10,7 +10,7 @@ use hexdel::{AngleBounds, DVec2, Effort, Mesher, PointId, Session, SessionError,
 
 /// Places around a point, the last ones close to it.
 fn places(around: DVec2, radius: f64) -> impl Iterator<Item = DVec2> {
-    (0..12).map(move |i| {
+    (0..6).map(move |i| {
         let (sin, cos) = (0.7 * f64::from(i)).sin_cos();
         around + radius * 0.8_f64.powi(i) * DVec2::new(cos, sin)
     })
@@ -19,24 +19,25 @@ fn places(around: DVec2, radius: f64) -> impl Iterator<Item = DVec2> {
 #[test]
 fn drafts_hold_and_undone_leave_the_mesh_as_it_was() {
     for kind in [Kind::Uniform, Kind::Clusters, Kind::Grid] {
-        let points = generate(kind, 60, 5);
+        let points = generate(kind, 30, 5);
         let mut session = Session::new(&points, &Mesher::new()).unwrap();
         let before = session.mesh();
         session.draft(true);
         let (mut made, mut refused) = (0, 0);
-        for dragged in [3, 31] {
+        for dragged in [3, 21] {
             session.remove(&[PointId(dragged)]).unwrap();
             assert!(session.certificate().holds(), "{kind}");
             let lifted = session.mesh().mesh;
-            for at in places(points[dragged as usize], 0.05) {
+            for at in places(points[dragged as usize], 0.05 * session.domain().1) {
                 match session.insert(at) {
                     Ok(outcome) => {
                         assert!(!outcome.remeshed);
                         assert!(session.certificate().holds(), "{kind} {at}");
+                        assert_eq!(session.plain_mesh(), session.mesh().mesh);
                         session.undo().unwrap();
                         made += 1;
                     }
-                    Err(SessionError::NoRoom { .. }) => refused += 1,
+                    Err(SessionError::NoRoom { .. } | SessionError::Outside { .. }) => refused += 1,
                     Err(other) => panic!("{kind} {at}: {other}"),
                 }
                 assert_eq!(session.mesh().mesh, lifted, "{kind} {at}");
@@ -71,11 +72,13 @@ fn drafts_keep_a_size_and_leave_more_triangles() {
         edges.map(length).fold(0.0, f64::max)
     };
     session.draft(true);
+    let mut made = 0;
     for at in generate(Kind::Uniform, 6, 9) {
-        session.insert(at).unwrap();
+        made += usize::from(session.insert(at).is_ok());
         assert!(session.certificate().holds());
         assert!(longest(&session) <= 0.2 * (1.0 + 1e-8));
     }
+    assert!(made > 3, "{made}");
     let drafted = session.counts()[2];
     session.draft(false);
     session.renew().unwrap();

@@ -151,11 +151,10 @@ impl RawSession {
 
     /// The arrays of the mesh as it stands, without its certificate.
     pub fn arrays(&self) -> JsValue {
-        let made = self.session.mesh();
-        let triangles: Vec<u32> =
-            made.mesh.triangles.iter().flat_map(|t| t.map(|v| v.index() as u32)).collect();
+        let mesh = self.session.plain_mesh();
+        let triangles: Vec<u32> = mesh.triangles.iter().flat_map(|t| t.map(|v| v.index() as u32)).collect();
         Record::default()
-            .with("vertices", Float64Array::from(&flat(&made.mesh.vertices)[..]))
+            .with("vertices", Float64Array::from(&flat(&mesh.vertices)[..]))
             .with("triangles", js_sys::Uint32Array::from(&triangles[..]))
             .done()
     }

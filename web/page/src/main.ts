@@ -24,7 +24,7 @@ let facts: Facts | undefined;
 /** What is to be meshed next, and whether something is being meshed. */
 let wanted: { live: boolean; anew: boolean } | undefined;
 let working: { live: boolean } | undefined;
-/** Whether the drag that goes on has come to where there is no mesh soon. */
+/** Whether the drag that goes on is not followed. */
 let futile = false;
 let clock: ReturnType<typeof setTimeout> | undefined;
 /** Files that are being opened. */
@@ -113,7 +113,8 @@ async function work(): Promise<void> {
       globalThis.hexdelPage.updates += 1;
       showMesh(answer, live);
     } else {
-      futile = true;
+      // A session that has no room here may have some at the next place.
+      futile = !drawing.hasSession;
     }
   } catch (error) {
     refused(error);

@@ -88,7 +88,7 @@ export interface ReadAnswer {
 
 /** The answers, by kind of question. */
 export interface Answers {
-  /** None if a drag has come to where there is nothing soon. */
+  /** None if there is no mesh soon for the place that a drag has come to. */
   mesh: MeshAnswer | undefined;
   read: ReadAnswer;
   generate: Document;

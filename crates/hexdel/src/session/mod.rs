@@ -542,6 +542,15 @@ impl Session {
         self.size.as_ref()
     }
 
+    /// Vertices and triangles as they stand: those of [`mesh`](Self::mesh), without names.
+    ///
+    /// # Complexity
+    ///
+    /// Linear in the mesh.
+    pub fn plain_mesh(&self) -> TriMesh {
+        self.live.snapshot().mesh
+    }
+
     /// The mesh as it stands.
     ///
     /// # Complexity
