@@ -11,7 +11,7 @@ import { ROOT, native } from "./native.mjs";
 const fixture = (name) => readFileSync(join(ROOT, "fixtures", name));
 
 /** Formats that the program and the package must write alike, byte for byte. */
-const FORMATS = ["node", "ele", "vtu", "msh", "obj", "json", "ron", "svg", "2dm", "14"];
+const FORMATS = ["node", "ele", "vtu", "msh", "obj", "json", "ron", "svg", "14"];
 
 function assertNative(made, name, ...options) {
   for (const [format, bytes] of native(name, FORMATS, ...options)) {

@@ -19,6 +19,9 @@ const MOST_LIVE = 2000;
 const SLOW = 40;
 const MOST_SLOW = 2;
 
+/** Drafts that are made in advance, once for points and once for graphs. */
+const WARM_UPS = 4;
+
 /** A draft of the whole mesh has bounds that growth keeps by itself, as meshes have along segments, degrees. */
 const DRAFT_BOUNDS = [30, 90] as const;
 
@@ -38,6 +41,8 @@ let steps: Steps | undefined;
 let factsFrom = 0;
 /** How often a session has followed the drag that goes on slowly. */
 let slow = 0;
+/** Whether the code that drafts points, and graphs, is compiled well by now. */
+const warm = { points: false, graphs: false };
 
 self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   if ("module" in data) {
@@ -49,6 +54,9 @@ self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
     await ready;
     const [answer, transfer] = answered(request, reporting(id));
     post({ id, answer }, transfer);
+    if (request.kind === "mesh" && !request.live) {
+      setTimeout(() => warmUp(request));
+    }
   } catch (error) {
     post({ id, fault: faultOf(error) });
   }
@@ -152,6 +160,24 @@ function draftOf(options: Options): Options {
   const [least, most] = DRAFT_BOUNDS;
   const minAngle = Math.min(options.minAngle ?? least, least);
   return { ...options, effort: "draft", minAngle, maxAngle: Math.max(options.maxAngle ?? most, most) };
+}
+
+/** Drafts what nobody has asked for, so that browsers have compiled that code well when a drag begins. */
+function warmUp(of: Pick<MeshRequest, "doc" | "options">, times = WARM_UPS): void {
+  const { doc, options } = of;
+  const kind = doc.segments.length > 0 ? "graphs" : "points";
+  const count = doc.points.length / 2;
+  if (warm[kind] || count > MOST_LIVE || (options.method ?? "compact") !== "compact") {
+    return;
+  }
+  warm[kind] = times <= 1;
+  try {
+    whole(doc, draftOf(options), () => {}).free();
+  } catch {
+    // Whoever asks for it is told.
+  }
+  // What has been asked meanwhile comes first.
+  setTimeout(() => warmUp(of, times - 1));
 }
 
 function since(begun: number): number {
