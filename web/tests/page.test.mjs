@@ -158,6 +158,14 @@ test("options change the mesh", async () => {
   assert.ok(await page.isHidden("#fault"));
 });
 
+/** The fragment of the link that is copied. */
+async function copiedLink(page) {
+  const before = new URL(page.url()).hash;
+  await page.click("#link");
+  await page.waitForFunction((before) => location.hash !== before && location.hash.startsWith("#in="), before);
+  return new URL(page.url()).hash;
+}
+
 /** The hexagons that are shown: how many there are, and how many the legend has of each kind. */
 const hexagons = (page) =>
   page.evaluate(() => {
@@ -248,9 +256,7 @@ test("heights stay with their points, into files and links", async () => {
   const table = readFileSync(await input.path());
   const saved = new Map();
   for (const format of ["14", "2dm", "vtu"]) saved.set(format, await file(page, format));
-  await page.click("#link");
-  await page.waitForFunction(() => location.hash.startsWith("#in="));
-  const other = await open(place, {}, new URL(page.url()).hash);
+  const other = await open(place, {}, await copiedLink(page));
   assert.deepEqual(await heights(other.page), [...before, NaN]);
   for (const [format, bytes] of saved) assert.ok(bytes.equals(await file(other.page, format)), format);
   await other.page.context().close();
@@ -285,9 +291,7 @@ test("a link holds the input and the options", async () => {
   await page.selectOption("#effort", "fast");
   await dropFixture(page, "graphs/square_with_hole.poly");
   const before = await counts(page);
-  await page.click("#link");
-  await page.waitForFunction(() => location.hash.startsWith("#in="));
-  const fragment = new URL(page.url()).hash;
+  const fragment = await copiedLink(page);
   await page.selectOption("#effort", "standard");
   await settled(page);
   const other = await open(place, {}, fragment);
@@ -325,12 +329,13 @@ async function followed(page, index, milliseconds = 1500) {
   const updates = await page.evaluate(
     async ({ x, y, milliseconds }) => {
       const canvas = document.querySelector("#canvas");
+      globalThis.pointAt = (clientX, clientY) =>
+        canvas.dispatchEvent(new PointerEvent("pointermove", { clientX, clientY, pointerId: 1, pointerType: "mouse", bubbles: true }));
       const before = globalThis.hexdelPage.updates;
       const begun = performance.now();
       const over = () => performance.now() - begun > (globalThis.hexdelPage.updates > before + 1 ? milliseconds : 60_000);
       for (let i = 1; !over(); i++) {
-        const at = { clientX: x + 6 * Math.sin(i / 9) + 5, clientY: y + 6 * Math.cos(i / 7) };
-        canvas.dispatchEvent(new PointerEvent("pointermove", { ...at, pointerId: 1, pointerType: "mouse", bubbles: true }));
+        globalThis.pointAt(x + 6 * Math.sin(i / 9) + 5, y + 6 * Math.cos(i / 7));
         await new Promise((done) => setTimeout(done, 8));
       }
       return (1000 * (globalThis.hexdelPage.updates - before)) / (performance.now() - begun);
@@ -340,6 +345,8 @@ async function followed(page, index, milliseconds = 1500) {
   const live = await facts(page);
   const verdict = await page.textContent("#verdict");
   const frame = await page.evaluate(() => Math.min(...[1, 2, 3].map(() => globalThis.hexdelPage.drawing.drawNow())));
+  // Where it was there is a mesh.
+  await page.evaluate(({ x, y }) => globalThis.pointAt(x, y), { x, y });
   await page.mouse.up();
   await settled(page);
   return { rate: updates, frame, live, verdict };

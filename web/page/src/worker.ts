@@ -15,9 +15,12 @@ const MOST_FOR_STEPS = 5000;
 /** Up to so many points are meshed anew at each step of a drag that no session follows fast. */
 const MOST_LIVE = 2000;
 
-/** A drag that a session has followed so slowly, milliseconds, so often is not followed by it any more. */
+/** A drag that a session has followed so slowly, milliseconds, so often is not followed by it any more: of few points. */
 const SLOW = 40;
 const MOST_SLOW = 2;
+
+/** Of more points a draft of the whole is slower than a slow session. */
+const FEW = 500;
 
 /** Drafts that are made in advance, once for points and once for graphs. */
 const WARM_UPS = 4;
@@ -144,7 +147,9 @@ function drafted(request: MeshRequest, progress: Progress): MeshAnswer | undefin
     factsFrom = now + (now - changed) / SHARE_OF_FACTS;
     return { ...answerOf(present(), overlays), facts, ...answer, seconds: since(begun) };
   }
-  if (doc.points.length / 2 > MOST_LIVE) {
+  const count = doc.points.length / 2;
+  const stays = count > FEW && steps?.fits(doc, JSON.stringify(options)) === true;
+  if (count > MOST_LIVE || stays) {
     return undefined;
   }
   show(whole(doc, draftOf(options), progress));
@@ -226,7 +231,7 @@ function begin(doc: Document, options: Options): Steps | undefined {
 
 /** Whether the session follows a drag. Where it has no room or takes long, another mesh may not. */
 function follows(doc: Document, options: Options): boolean {
-  const few = doc.points.length / 2 <= MOST_LIVE;
+  const few = doc.points.length / 2 <= FEW;
   if (!steps?.fits(doc, JSON.stringify(options)) || (few && slow >= MOST_SLOW)) {
     return false;
   }
