@@ -39,6 +39,7 @@ fn thin_rings(store: &mut Store, tools: &Tools, mut at: u32, p: DVec2, size: usi
         store.around(at, |t| seeds.push(t));
         let cut = Cut::new(store, rings(store, &seeds, size));
         let mut work = tools.work(cut.mesh.clone(), cut.failed.clone());
+        work.patient = true;
         let removed: usize = PASSES.into_iter().map(|pass| decimate(&mut work, pass)).sum();
         cut.put_back(store, &work.mesh, &work.failed);
         if removed == 0 {

@@ -146,7 +146,7 @@ impl Session {
             return None;
         }
         let too_short = !was_short && self.is_short(&self.live);
-        let many = points > 0 && self.changed * share >= points;
+        let many = self.changed * share >= points;
         if !too_short && !many {
             return None;
         }
