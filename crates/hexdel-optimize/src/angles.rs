@@ -283,10 +283,10 @@ impl Measure {
     }
 
     #[inline]
+    #[allow(clippy::needless_bitwise_bool, reason = "all seven are cheaper than one mistaken guess")]
     fn within(&self, cot: Cot) -> bool {
         let [a, b, c] = self.dot;
         let (least, most) = (self.cross * cot.max, self.cross * cot.min);
-        // Without branches: all seven are cheaper than one mistaken guess.
         (self.cross > 0.0)
             & (a <= most)
             & (b <= most)

@@ -151,28 +151,34 @@ impl Mesh {
     #[inline]
     pub(crate) fn around(&self, v: u32, mut f: impl FnMut(u32, usize)) -> bool {
         let first = self.anchor[v as usize];
-        let mut t = first;
-        let mut closed = true;
-        // A free vertex is inside, and needs no way back, clockwise, to the rim.
-        while !matches!(self.motion[v as usize], Motion::Free) {
-            let k = self.tri[t as usize].corner(v);
-            let before = self.tri[t as usize].n[(k + 2) % 3];
-            if before == NONE {
-                closed = false;
-                break;
-            }
-            t = before;
-            if t == first {
-                break;
-            }
-        }
-        let start = t;
+        // A free vertex is inside, and needs no way back to the rim.
+        let inside = matches!(self.motion[v as usize], Motion::Free);
+        let (start, closed) = if inside { (first, true) } else { self.first_around(v, first) };
+        let mut t = start;
         loop {
             let k = self.tri[t as usize].corner(v);
             f(t, k);
             t = self.tri[t as usize].n[(k + 1) % 3];
             if t == NONE || t == start {
                 return closed && t != NONE;
+            }
+        }
+    }
+
+    /// The triangle at `v` from which on the others follow counter-clockwise: the first
+    /// on the rim, or `t` if they close around `v`.
+    #[inline]
+    fn first_around(&self, v: u32, t: u32) -> (u32, bool) {
+        let mut first = t;
+        loop {
+            let k = self.tri[first as usize].corner(v);
+            let before = self.tri[first as usize].n[(k + 2) % 3];
+            if before == NONE {
+                return (first, false);
+            }
+            first = before;
+            if first == t {
+                return (t, true);
             }
         }
     }
