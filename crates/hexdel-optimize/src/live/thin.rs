@@ -14,7 +14,7 @@ use crate::mesh::Motion;
 /// again for a hundredth fewer triangles.
 const PASSES: [Pass; 2] = [
     Pass { rings: 2, refills: 1, max_cost: 0.5, near: 0.0, patience: PATIENT },
-    Pass { rings: 3, refills: 2, max_cost: 0.6, near: 0.01, patience: PATIENT },
+    Pass { rings: 3, refills: 4, max_cost: 0.6, near: 0.01, patience: PATIENT },
 ];
 
 /// Parts that are worked on after one change, at most: what a removed point
