@@ -124,8 +124,12 @@ fn run(
     }
 }
 
-/// Passes of removals at fast effort.
-const FAST_PASSES: usize = 3;
+/// Passes of removals at fast effort: up to a lower bound of [`EASY_DEG`], and above. A mesh
+/// that has grown to easy bounds has few vertices too many.
+const FAST_PASSES: [usize; 2] = [1, 3];
+
+/// Degrees.
+const EASY_DEG: f64 = 42.5;
 
 /// Passes of removals at standard effort, one more in small meshes: the later ones take as
 /// long again for a twentieth fewer triangles.
@@ -293,7 +297,7 @@ impl<'a> Run<'a> {
     fn passes(&self) -> usize {
         match self.options.effort {
             Effort::Repair => 0,
-            Effort::Fast => FAST_PASSES,
+            Effort::Fast => FAST_PASSES[usize::from(self.options.bounds.min_deg() > EASY_DEG)],
             Effort::Standard | Effort::Best => STANDARD_PASSES + usize::from(self.is_small),
         }
     }
