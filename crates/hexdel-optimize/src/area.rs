@@ -3,7 +3,7 @@
 
 use hexdel_geom::DVec2;
 
-use crate::decimate::{PATIENT, Pass, settle};
+use crate::decimate::{PATIENT, Pass, settle_by_rings};
 use crate::sizing::{Sizing, edge_fits, triangle_fits};
 use crate::work::Work;
 
@@ -75,7 +75,7 @@ fn divide(work: &mut Work, t: u32, is_to_be: impl Fn([DVec2; 2]) -> bool, pass: 
         let Some(middle) = work.mesh.split_edge(t, k, &mut made) else { continue };
         let mut verts = verts.to_vec();
         verts.push(middle);
-        if settle(work, &verts, pass) {
+        if settle_by_rings(work, &verts, pass) {
             work.commit();
             return;
         }

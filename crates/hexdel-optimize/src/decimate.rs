@@ -7,6 +7,7 @@
 use crate::mesh::Motion;
 use crate::patch::{Sweeps, Swept};
 use crate::refill::MAX_CORNERS;
+use crate::repair::load_rings;
 use crate::segment::SegmentHole;
 use crate::spread::Reach;
 use crate::work::{Effort, Work};
@@ -176,7 +177,13 @@ pub(crate) fn drop_vertex(work: &mut Work, v: u32) -> bool {
 }
 
 /// Moves `verts` and what they push until everything changed holds.
+///
+/// Where areas are limited, more divisions succeed afterwards if rings move one after the
+/// other.
 pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
+    if work.rules.limits_areas() {
+        return settle_by_rings(work, verts, pass);
+    }
     let (near, Patience(hope)) =
         if work.patient { (pass.near.max(THOROUGH_NEAR), THOROUGH) } else { (pass.near, pass.patience) };
     match work.spread(verts, Reach { rings: pass.rings, most: SWEEPS, stall: STALL, hope }) {
@@ -184,6 +191,18 @@ pub(crate) fn settle(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
         Swept::Stalled if near > 0.0 => work.finish(Effort { near, ..FINISH }).solved && work.changes_hold(),
         Swept::Stalled | Swept::Hopeless => false,
     }
+}
+
+/// Moves and flips ever more rings around `verts` until everything changed holds.
+pub(crate) fn settle_by_rings(work: &mut Work, verts: &[u32], pass: Pass) -> bool {
+    let near = pass.near.max(THOROUGH_NEAR);
+    for rings in 1..=usize::from(pass.rings) {
+        load_rings(work, verts, rings);
+        if work.solve(Effort { near, ..FINISH }).solved {
+            return work.changes_hold();
+        }
+    }
+    false
 }
 
 /// Removes `v` from its segment if both sides can be brought inside the bounds.

@@ -9,6 +9,7 @@ import { EXAMPLES, download, stem } from "./files.js";
 import { gridOf } from "./grid.js";
 import { LONGEST, fromFragment, toFragment } from "./link.js";
 import { element, listNotes, optionsOf, plural, sentence, showCounts, showFacts, showGrid, showHistogram, showLegend, showOptions } from "./panel.js";
+import { showSliders, startSliders } from "./sliders.js";
 import type { Facts, Fault, MeshAnswer, Overlaid, Overlays } from "./protocol.js";
 
 /** Progress is shown of work that takes longer, milliseconds. */
@@ -363,6 +364,7 @@ async function openLink(): Promise<boolean> {
     }
     options = held.options;
     showOptions(options);
+    showSliders();
     open(held.doc, "mesh");
     return true;
   } catch {
@@ -404,6 +406,7 @@ function connect(): void {
   for (const id of ["min-angle", "max-angle", "size", "max-area", "effort", "method", "domain", "repair"]) {
     on(id, "change", optionsChanged);
   }
+  startSliders(() => history.current);
   for (const id of ["voronoi", "hexagons"]) {
     on(id, "change", () => void showOverlays().catch(refused));
   }
