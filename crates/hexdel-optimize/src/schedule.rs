@@ -456,7 +456,7 @@ impl<'a> Run<'a> {
         let seed = Random::new(seed).next();
         let mut work = Work::new(part.mesh, self.rules, &self.refills, part.failed, seed);
         work.sizing = self.guard;
-        work.patient |= self.is_small;
+        work.patient |= self.is_small || self.options.effort == Effort::Best;
         job(&mut work);
         work.stats.steps = work.patch.steps();
         (Part { mesh: work.mesh, global: part.global, failed: work.failed }, work.stats)
