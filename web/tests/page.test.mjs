@@ -271,6 +271,34 @@ test("heights stay with their points, into files and links", async () => {
   assert.deepEqual(await heights(page), [...before, NaN], "undone: the table, then the drag");
 });
 
+test("sliders set the options and follow them", async () => {
+  const { page } = main;
+  await dropFixture(page, "points/five.node");
+  for (const [id, place, value] of [["min-angle", "35", "35"], ["max-angle", "85", "85"], ["effort", "0", "fast"]]) {
+    await page.locator(`#${id}-slider`).fill(place);
+    await settled(page);
+    assert.equal(await page.inputValue(`#${id}`), value);
+  }
+  assert.deepEqual((await facts(page)).bounds, [35, 85]);
+  const { triangles } = await facts(page);
+  await page.locator("#size-slider").fill("40");
+  await settled(page);
+  const size = Number(await page.inputValue("#size"));
+  assert.ok(size > 0 && (await facts(page)).triangles > triangles, String(size));
+  await page.fill("#min-angle", "30");
+  await page.press("#min-angle", "Enter");
+  await settled(page);
+  assert.equal(await page.inputValue("#min-angle-slider"), "30");
+  for (const id of ["min-angle", "max-angle", "size"]) {
+    await page.fill(`#${id}`, "");
+    await page.press(`#${id}`, "Enter");
+  }
+  await page.selectOption("#effort", "standard");
+  await settled(page);
+  assert.equal(await page.inputValue("#size-slider"), "0");
+  assert.equal(await page.inputValue("#effort-slider"), "1");
+});
+
 test("an error is told in the library's words, at its place, and mended", async () => {
   const { page } = main;
   await dropFixture(page, "graphs/crossing.poly");

@@ -225,7 +225,7 @@ struct Wishes {
 const SHRUNK: f64 = 0.84;
 
 /// Retries in vain with another lattice, or with other triangles too large.
-const VAIN: u32 = 4;
+const VAIN: u32 = 2;
 
 /// Triangles beside rings up to which another lattice is tried: all of them must come
 /// out on the same one. One with 14 has; of those with more than 16 none was seen to.
