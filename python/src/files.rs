@@ -4,7 +4,8 @@ use crate::convert::{GraphArrays, indices_out, points_out, rows_out, sound_mesh_
 use crate::errors;
 use crate::watch::{Watch, run};
 use hexdel::geom::VertexId;
-use hexdel::io::{self, MarkedEdge, MeshData, MeshFormat, Picture, PointFormat};
+use hexdel::io::{self, MarkedEdge, MeshData, MeshFormat, PointFormat};
+use hexdel::plot::Picture;
 use hexdel::{DVec2, Pslg, generate};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;

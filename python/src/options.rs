@@ -4,7 +4,7 @@ use crate::errors;
 use crate::sampled::Sampled;
 use crate::watch::Watch;
 use glam::DVec2;
-use hexdel::io::Raster;
+use hexdel::geom::Raster;
 use hexdel::{AngleBounds, Domain, Effort, Mesher, Method, Overlaps, SegmentMethod, Size};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;

@@ -18,7 +18,8 @@ const LAYERS: &[(&str, &[&str])] = &[
         "hexdel-pslg",
         &["hexdel-refine", "hexdel-grow", "hexdel-optimize", "hexdel-classify", "hexdel-grid", "hexdel-geom"],
     ),
-    ("hexdel-io", &["hexdel-geom"]),
+    ("hexdel-plot", &["hexdel-geom"]),
+    ("hexdel-io", &["hexdel-plot", "hexdel-geom"]),
     (
         "hexdel",
         &[
@@ -29,10 +30,11 @@ const LAYERS: &[(&str, &[&str])] = &[
             "hexdel-optimize",
             "hexdel-grow",
             "hexdel-pslg",
+            "hexdel-plot",
             "hexdel-io",
         ],
     ),
-    ("hexdel-cli", &["hexdel", "hexdel-io"]),
+    ("hexdel-cli", &["hexdel", "hexdel-io", "hexdel-plot"]),
 ];
 
 /// Lines a source file may have before it should be two.
@@ -150,7 +152,7 @@ mod tests {
             assert!(example.with_extension("rs").exists(), "{command}");
             found.push(name);
         }
-        let alone = ["grid", "classify", "refine", "optimize", "grow", "pslg", "io"];
+        let alone = ["grid", "classify", "refine", "optimize", "grow", "pslg", "plot", "io"];
         assert!(alone.iter().all(|name| found.contains(&format!("hexdel-{name}"))), "{found:?}");
     }
 

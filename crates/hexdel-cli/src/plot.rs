@@ -5,7 +5,8 @@ use crate::input::{Formats, read_graph, read_mesh_data};
 use crate::outputs::Outputs;
 use clap::ValueEnum;
 use hexdel::{AngleBounds, DVec2, TriMesh};
-use hexdel_io::{ColourBy, MeshFormat, Picture, WriteError, write_mesh};
+use hexdel_io::{MeshFormat, WriteError, write_mesh};
+use hexdel_plot::{ColourBy, Picture};
 use std::path::PathBuf;
 
 /// Draw a mesh, coloured by its angles or regions

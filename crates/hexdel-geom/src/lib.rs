@@ -7,13 +7,14 @@
 //! | module | what |
 //! |---|---|
 //! | [`bounds`] | the angle interval a mesh promises |
-//! | [`mesh`] | [`TriMesh`]: vertices and counter-clockwise triangles |
+//! | [`mesh`] | [`TriMesh`]: vertices and counter-clockwise triangles; [`MarkedEdge`] |
 //! | [`monitor`] | progress and cancellation of long work |
 //! | [`points`] | [`PointSet`]: finite points, duplicates merged into sites |
 //! | [`circle`] | the smallest circle around a set of points |
 //! | [`mod@closest_pair`] | the closest two points of a set |
 //! | [`predicates`] | orientation and in-circle tests with exact signs |
 //! | [`quality`] | angles and aspect ratio of one triangle |
+//! | [`raster`] | [`Raster`]: square cells with a number each |
 //! | [`certificate`] | [`certify`]: what a finished mesh keeps, checked from scratch |
 //! | [`delaunay`] | [`restore_delaunay`]: repairs edges that rounding took from Delaunay |
 //! | [`segment`] | points of a segment, rounded once |
@@ -33,6 +34,7 @@ pub mod points;
 pub mod predicates;
 pub mod pslg;
 pub mod quality;
+pub mod raster;
 pub mod rounding;
 pub mod segment;
 pub mod segments;
@@ -51,11 +53,12 @@ pub use circle::{Circle, smallest_enclosing_circle};
 pub use closest_pair::{ClosestPair, closest_pair};
 pub use delaunay::{DelaunayError, FlipReport, restore_delaunay};
 pub use glam::DVec2;
-pub use mesh::{TriMesh, TriangleId, VertexId};
+pub use mesh::{MarkedEdge, TriMesh, TriangleId, VertexId};
 pub use monitor::{Cancelled, Monitor, Phase, Unwatched};
 pub use points::{PointSet, PointsError};
 pub use predicates::{incircle, orient2d};
 pub use pslg::{Polygon, Pslg, PslgLayoutError, Region};
+pub use raster::Raster;
 pub use rounding::settle_rounding;
 pub use segment::point_on_segment;
 pub use segments::{MissingSegment, SegmentCheck, check_segments};

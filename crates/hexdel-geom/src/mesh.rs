@@ -63,3 +63,12 @@ impl TriMesh {
         [self.vertices[a.index()], self.vertices[b.index()], self.vertices[c.index()]]
     }
 }
+
+/// An edge of a mesh that has a marker: on an input segment or on the boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MarkedEdge {
+    /// Its ends, in the direction of the segment.
+    pub ends: [VertexId; 2],
+    /// Its marker, in Triangle's sense.
+    pub marker: i32,
+}

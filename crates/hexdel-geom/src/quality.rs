@@ -30,6 +30,33 @@ pub fn angles_deg(corners: [DVec2; 3]) -> [f64; 3] {
     angles_rad(corners).map(f64::to_degrees)
 }
 
+/// The angles at the three corners, degrees, 0 to 180 whatever the orientation; zeros for coincident
+/// corners.
+///
+/// For display: accurate to a few units in the last place for triangles of any size, and the same on
+/// every platform. No verdict on a mesh rests on them, that is the certificate's business.
+///
+/// # Examples
+///
+/// ```
+/// use hexdel_geom::{DVec2, quality};
+///
+/// let clockwise = [DVec2::ZERO, DVec2::Y, DVec2::X].map(|p| p * 1e-200);
+/// assert_eq!(quality::unsigned_angles_deg(clockwise), [90.0, 45.0, 45.0]);
+/// ```
+pub fn unsigned_angles_deg(corners: [DVec2; 3]) -> [f64; 3] {
+    // Halved before the subtraction and scaled after it, no difference overflows
+    // and no product under- or overflows that matters.
+    let [a, b, c] = corners.map(|p| p * 0.5);
+    let sides = [b - a, c - b, a - c];
+    let scale = sides.iter().map(|s| s.abs().max_element()).fold(0.0, f64::max);
+    if scale == 0.0 {
+        return [0.0; 3];
+    }
+    let [ab, bc, ca] = sides.map(|s| s / scale);
+    [unsigned_angle(ab, -ca), unsigned_angle(bc, -ab), unsigned_angle(ca, -bc)]
+}
+
 /// Circumradius over twice the inradius: 1 for the equilateral triangle,
 /// larger for every other, infinite for a degenerate one. The orientation
 /// does not matter.
@@ -72,6 +99,11 @@ pub fn rounding_deg([a, b, c]: [DVec2; 3]) -> f64 {
 /// Signed angle from `u` to `w`, radians.
 fn angle(u: DVec2, w: DVec2) -> f64 {
     libm::atan2(u.perp_dot(w), u.dot(w))
+}
+
+/// Unsigned angle between two directions, degrees.
+fn unsigned_angle(u: DVec2, v: DVec2) -> f64 {
+    libm::atan2(u.perp_dot(v).abs(), u.dot(v)).to_degrees()
 }
 
 #[cfg(test)]

@@ -4,30 +4,12 @@
 //! verdict on a mesh rests on them, that is the certificate's business.
 
 use hexdel_geom::DVec2;
+use hexdel_geom::quality::unsigned_angles_deg;
 
-/// The angles of a triangle at its corners, degrees; zeros for coincident corners.
-pub(crate) fn angles_deg(corners: [DVec2; 3]) -> [f64; 3] {
-    // Halved before the subtraction and scaled after it, no difference overflows
-    // and no product under- or overflows that matters.
-    let [a, b, c] = corners.map(|p| p * 0.5);
-    let sides = [b - a, c - b, a - c];
-    let scale = sides.iter().map(|s| s.abs().max_element()).fold(0.0, f64::max);
-    if scale == 0.0 {
-        return [0.0; 3];
-    }
-    let [ab, bc, ca] = sides.map(|s| s / scale);
-    [between(ab, -ca), between(bc, -ab), between(ca, -bc)]
-}
-
-/// The smallest and the largest of them.
+/// The smallest and the largest angle of a triangle, degrees; zeros for coincident corners.
 pub(crate) fn angle_range_deg(corners: [DVec2; 3]) -> [f64; 2] {
-    let [x, y, z] = angles_deg(corners);
+    let [x, y, z] = unsigned_angles_deg(corners);
     [x.min(y).min(z), x.max(y).max(z)]
-}
-
-/// The angle between two directions, degrees.
-fn between(u: DVec2, v: DVec2) -> f64 {
-    libm::atan2(u.perp_dot(v).abs(), u.dot(v)).to_degrees()
 }
 
 #[cfg(test)]

@@ -113,8 +113,7 @@ fn twice_area(places: &[DVec2], vertices: &[u32]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::MarkedEdge;
-    use hexdel_geom::VertexId;
+    use hexdel_geom::{MarkedEdge, VertexId};
 
     /// Three by three squares without the one in the middle.
     fn frame() -> TriMesh {

@@ -1,11 +1,11 @@
 //! What is read: a mesh and the data that goes with it, all owned.
 
-use hexdel_geom::{DVec2, TriMesh, VertexId};
+use hexdel_geom::{DVec2, MarkedEdge, TriMesh, VertexId};
 use serde::Deserialize;
 
 use crate::error::ReadError;
 use crate::promised::Promised;
-use crate::view::{MarkedEdge, MeshView};
+use crate::view::MeshView;
 
 /// A mesh that was read, with what its file knows about it.
 ///

@@ -88,6 +88,7 @@ const MESH_NAMES: Names<MeshFormat> = &[
     ("nc", MeshFormat::Ugrid),
     ("vtk", MeshFormat::Vtk),
     ("stl", MeshFormat::Stl),
+    #[cfg(feature = "plot")]
     ("svg", MeshFormat::Svg),
     #[cfg(feature = "png")]
     ("png", MeshFormat::Png),
@@ -198,7 +199,8 @@ pub enum MeshFormat {
     Vtk,
     /// Stereolithography in text, `.stl`. Written only.
     Stl,
-    /// A picture, `.svg`. Written only.
+    /// A picture, `.svg`. Written only, with the feature `plot`.
+    #[cfg(feature = "plot")]
     Svg,
     /// A picture, `.png`. Written only, with the feature `png`.
     #[cfg(feature = "png")]
@@ -210,12 +212,16 @@ impl MeshFormat {
     pub const EXTENSIONS: &str = if cfg!(feature = "png") {
         ".node, .ele, .edge, .neigh, .poly, .vtu, .vtk, .msh, .obj, .off, .mesh, .stl, .2dm, .14, .nc, .geojson, \
          .wkt, .json, .ron, .svg, .png"
-    } else {
+    } else if cfg!(feature = "plot") {
         ".node, .ele, .edge, .neigh, .poly, .vtu, .vtk, .msh, .obj, .off, .mesh, .stl, .2dm, .14, .nc, .geojson, \
          .wkt, .json, .ron, .svg"
+    } else {
+        ".node, .ele, .edge, .neigh, .poly, .vtu, .vtk, .msh, .obj, .off, .mesh, .stl, .2dm, .14, .nc, .geojson, \
+         .wkt, .json, .ron"
     };
 
     /// The extensions of pictures, for messages.
+    #[cfg(feature = "plot")]
     pub const PICTURES: &str = if cfg!(feature = "png") { ".svg, .png" } else { ".svg" };
 
     /// The extensions that meshes are read from, for messages.
@@ -266,9 +272,16 @@ impl MeshFormat {
     /// Whether it is a picture.
     pub fn is_picture(self) -> bool {
         match self {
-            Self::Svg => true,
             #[cfg(feature = "png")]
             Self::Png => true,
+            _ => self.is_svg(),
+        }
+    }
+
+    pub(crate) fn is_svg(self) -> bool {
+        match self {
+            #[cfg(feature = "plot")]
+            Self::Svg => true,
             _ => false,
         }
     }

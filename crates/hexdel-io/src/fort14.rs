@@ -152,8 +152,7 @@ fn read_boundaries<R: BufRead>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::MarkedEdge;
-    use hexdel_geom::VertexId;
+    use hexdel_geom::{MarkedEdge, VertexId};
 
     fn read(text: &str) -> Result<MeshData, ReadError> {
         read_fort14(text.as_bytes(), "f")

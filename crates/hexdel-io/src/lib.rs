@@ -1,4 +1,4 @@
-//! Mesh and point formats, pictures.
+//! Mesh and point formats.
 //!
 //! The only library crate of the workspace that touches files. It knows points,
 //! planar straight-line graphs and triangle meshes, and nothing of how meshes are
@@ -32,7 +32,7 @@
 //! | `.stl` | stereolithography | | yes |
 //! | `.geojson` `.wkt` | triangles as polygons | | yes |
 //! | `.json` `.ron` | a [`TriMesh`](hexdel_geom::TriMesh) and its data | yes | yes |
-//! | `.svg` `.png` | pictures, [`Picture`] | | yes |
+//! | `.svg` `.png` | pictures by `hexdel-plot`, with the features `plot` and `png` | | yes |
 //! | `.vtu` `.geojson` `.wkt` `.nc` `.disv` `.mpas.nc`, `.v.node` + `.v.edge` | the Voronoi dual of a mesh, by [`write_dual`] | | yes |
 //!
 //! Points go through [`read_points`], or a [`PointReader`] that says more, and [`write_points`], meshes through
@@ -59,8 +59,6 @@ mod angles;
 mod asc;
 mod atomic;
 mod boundary;
-mod canvas;
-mod colour;
 mod columns;
 mod data;
 mod disv;
@@ -68,16 +66,11 @@ mod dual;
 mod error;
 mod format;
 mod fort14;
-mod frame;
 mod geojson;
-#[cfg(feature = "png")]
-mod glyphs;
 mod graph_geojson;
 mod graph_json;
 mod graph_ron;
-mod histogram;
 mod json;
-mod legend;
 mod lines;
 mod medit;
 mod mend;
@@ -90,24 +83,18 @@ mod netcdf;
 mod numbered;
 mod obj;
 mod off;
-mod picture;
-#[cfg(feature = "png")]
-mod png;
 mod point_file;
 mod polygons_out;
 #[cfg(feature = "projection")]
 mod projection;
 mod promised;
 mod read;
-mod scene;
 mod second_order;
 #[cfg(feature = "shapefile")]
 mod shapefile;
 mod shapes;
 mod sizes;
 mod stl;
-mod survey;
-mod svg;
 mod table;
 mod tags;
 mod text;
@@ -125,20 +112,19 @@ mod vtu_in;
 mod wkt;
 mod write;
 
-pub use asc::{Raster, parse_raster, read_raster};
-pub use colour::Rgb;
+pub use asc::{parse_raster, read_raster};
 pub use columns::{Column, Columns, ColumnsError, TakenColumn, TakenColumns};
 pub use data::MeshData;
 pub use dual::write_dual;
 pub use error::{ReadError, WriteError};
 pub use format::{DualFormat, MeshFormat, PointFormat};
+pub use hexdel_geom::{MarkedEdge, Raster};
 pub use mend::ReadWarning;
-pub use picture::{ColourBy, Groups, Overlay, OverlayClass, Picture, Polygon};
 pub use point_file::{PointFile, PointReader, points_beside, read_points, read_points_from};
 #[cfg(feature = "projection")]
 pub use projection::{Projection, ProjectionError, ProjectionKind};
 pub use promised::{NotPromised, Promised, PromisedDomain};
 pub use read::{holds_mesh, read_mesh, read_mesh_data, read_mesh_from, read_mesh_pair};
 pub use sizes::{parse_sizes, read_sizes};
-pub use view::{Geographic, MarkedEdge, MeshView};
+pub use view::{Geographic, MeshView};
 pub use write::{write_mesh, write_mesh_pair_to, write_mesh_to, write_points, write_points_to};

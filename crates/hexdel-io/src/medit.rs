@@ -6,7 +6,7 @@
 
 use std::io::{self, BufRead, Write};
 
-use hexdel_geom::{DVec2, TriMesh, VertexId};
+use hexdel_geom::{DVec2, MarkedEdge, TriMesh, VertexId};
 
 use crate::data::MeshData;
 use crate::error::{ReadError, WriteError};
@@ -14,7 +14,7 @@ use crate::lines::Comments;
 use crate::mend::Faults;
 use crate::text::TextWriter;
 use crate::tokens::Tokens;
-use crate::view::{MarkedEdge, MeshView};
+use crate::view::MeshView;
 
 /// The most items, so that 32-bit ids reach all of them.
 const MAX_ITEMS: u64 = u32::MAX as u64;

@@ -22,7 +22,7 @@
 
 use std::io::{self, BufWriter, Write};
 
-use hexdel_geom::{DVec2, VertexId};
+use hexdel_geom::{DVec2, MarkedEdge, VertexId};
 use ron::Options;
 use ron::error::SpannedError;
 use ron::ser::PrettyConfig;
@@ -34,7 +34,7 @@ use crate::error::ReadError;
 use crate::json::Source;
 use crate::lines::clip_message;
 use crate::promised::Promised;
-use crate::view::{MarkedEdge, MeshView};
+use crate::view::MeshView;
 
 #[derive(Serialize)]
 struct Document<'a> {

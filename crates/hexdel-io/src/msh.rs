@@ -11,7 +11,7 @@
 use std::collections::HashMap;
 use std::io::BufRead;
 
-use hexdel_geom::{TriMesh, VertexId};
+use hexdel_geom::{MarkedEdge, TriMesh, VertexId};
 use rustc_hash::FxHashSet;
 
 use crate::data::MeshData;
@@ -21,7 +21,6 @@ use crate::msh_out::{LINE, POINT, TRIANGLE};
 use crate::promised::{NotPromised, PREFIX, Promised};
 use crate::tags::{Sorted, Tags};
 use crate::tokens::Tokens;
-use crate::view::MarkedEdge;
 
 /// The most items, so that 32-bit ids reach all of them.
 const MAX_ITEMS: u64 = u32::MAX as u64;

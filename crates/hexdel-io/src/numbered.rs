@@ -3,14 +3,13 @@
 //! Numbers may have gaps and any order, and what refers to a node may come before it. Vertices,
 //! triangles and edges are in the order of the file.
 
-use hexdel_geom::{DVec2, TriMesh, VertexId};
+use hexdel_geom::{DVec2, MarkedEdge, TriMesh, VertexId};
 
 use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::{Fields, quote};
 use crate::mend::Faults;
 use crate::tags::Tags;
-use crate::view::MarkedEdge;
 
 /// The most nodes or elements, so that 32-bit ids reach all of them.
 const MAX_ITEMS: usize = u32::MAX as usize;

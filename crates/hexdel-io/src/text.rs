@@ -54,26 +54,6 @@ impl<'w> TextWriter<'w> {
         Ok(())
     }
 
-    /// A number of pixels, to a hundredth.
-    pub(crate) fn pixels(&mut self, pixels: f64) -> &mut Self {
-        self.hundredths((pixels * 100.0).round() as i64)
-    }
-
-    /// A hundredth of an integer.
-    pub(crate) fn hundredths(&mut self, hundredths: i64) -> &mut Self {
-        if hundredths < 0 {
-            self.text("-");
-        }
-        let magnitude = hundredths.unsigned_abs();
-        self.integer(magnitude / 100);
-        match magnitude % 100 {
-            0 => self,
-            tenths if tenths % 10 == 0 => self.text(".").integer(tenths / 10),
-            rest if rest < 10 => self.text(".0").integer(rest),
-            rest => self.text(".").integer(rest),
-        }
-    }
-
     /// Hands the text on if there is enough of it. To be called often.
     pub(crate) fn breathe(&mut self) -> io::Result<()> {
         if self.buffer.len() >= CHUNK {
@@ -87,27 +67,5 @@ impl<'w> TextWriter<'w> {
         self.out.write_all(&self.buffer)?;
         self.buffer.clear();
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pixels_have_at_most_two_decimals() {
-        for (pixels, text) in [
-            (0.0, "0"),
-            (-0.001, "0"),
-            (12.0, "12"),
-            (1.5, "1.5"),
-            (-0.05, "-0.05"),
-            (3.149, "3.15"),
-            (99.999, "100"),
-        ] {
-            let mut out = Vec::new();
-            TextWriter::new(&mut out).pixels(pixels).finish().unwrap();
-            assert_eq!(out, text.as_bytes());
-        }
     }
 }

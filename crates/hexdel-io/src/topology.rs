@@ -3,9 +3,7 @@
 //! No hashing: the edges of each triangle are sorted into the bucket of their smaller
 //! end, 24 bytes per triangle and 8 per vertex.
 
-use hexdel_geom::{TriMesh, TriangleId, VertexId, orient2d};
-
-use crate::view::MarkedEdge;
+use hexdel_geom::{MarkedEdge, TriMesh, TriangleId, VertexId, orient2d};
 
 /// An edge from the side of one of its triangles.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]

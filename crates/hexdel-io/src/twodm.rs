@@ -145,8 +145,7 @@ fn is_element(card: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::MarkedEdge;
-    use hexdel_geom::VertexId;
+    use hexdel_geom::{MarkedEdge, VertexId};
 
     fn read(text: &str) -> Result<MeshData, ReadError> {
         read_2dm(text.as_bytes(), "f")

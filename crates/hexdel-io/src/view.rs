@@ -2,22 +2,13 @@
 
 use std::fmt;
 
-use hexdel_geom::{DVec2, Region, TriMesh, TriangleId, VertexId};
-use serde::{Deserialize, Serialize};
+use hexdel_geom::{DVec2, MarkedEdge, Region, TriMesh, TriangleId, VertexId};
+#[cfg(feature = "plot")]
+use hexdel_plot::{Picture, Plot};
 
 use crate::error::WriteError;
 use crate::format::MeshFormat;
-use crate::picture::Picture;
 use crate::promised::Promised;
-
-/// An edge of a mesh that has a marker: on an input segment or on the boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct MarkedEdge {
-    /// Its ends, in the direction of the segment.
-    pub ends: [VertexId; 2],
-    /// Its marker, in Triangle's sense.
-    pub marker: i32,
-}
 
 /// A mesh whose coordinates are longitudes and latitudes, made in the plane of a projection: angles and areas are
 /// those of the plane.
@@ -42,9 +33,9 @@ pub struct Geographic<'a> {
 ///     triangles: vec![[0, 1, 2].map(VertexId::new)],
 /// };
 /// let view = MeshView::new(&mesh).with_input_indices(&[None, Some(0), Some(1)]);
-/// let mut svg = Vec::new();
-/// write_mesh_to(&mut svg, MeshFormat::Svg, &view, "a.svg")?;
-/// assert!(svg.starts_with(b"<svg"));
+/// let mut vtu = Vec::new();
+/// write_mesh_to(&mut vtu, MeshFormat::Vtu, &view, "a.vtu")?;
+/// assert!(vtu.starts_with(b"<?xml"));
 /// # Ok::<(), hexdel_io::WriteError>(())
 /// ```
 #[derive(Clone, Copy)]
@@ -88,7 +79,8 @@ pub struct MeshView<'a> {
     /// If coordinates are longitudes and latitudes, where angles and areas are told of. `.nc` names WGS 84 then,
     /// unless [`epsg`](Self::epsg) is another system.
     pub geographic: Option<Geographic<'a>>,
-    /// How pictures look and what else is on them.
+    /// How pictures look and what else is on them, with the feature `plot`.
+    #[cfg(feature = "plot")]
     pub picture: Picture<'a>,
 }
 
@@ -111,6 +103,7 @@ impl<'a> MeshView<'a> {
             epsg: None,
             definition: None,
             geographic: None,
+            #[cfg(feature = "plot")]
             picture: Picture::default(),
         }
     }
@@ -187,10 +180,21 @@ impl<'a> MeshView<'a> {
         Self { second_order, ..self }
     }
 
-    /// With options for pictures.
+    /// With options for pictures, with the feature `plot`.
+    #[cfg(feature = "plot")]
     #[must_use]
     pub fn with_picture(self, picture: Picture<'a>) -> Self {
         Self { picture, ..self }
+    }
+
+    /// What pictures show of it.
+    #[cfg(feature = "plot")]
+    pub(crate) fn plot(&self) -> Plot<'a> {
+        let mut plot = Plot::new(self.mesh).with_picture(self.picture);
+        plot.input_indices = self.input_indices;
+        plot.regions = self.regions;
+        plot.marked_edges = self.marked_edges;
+        plot
     }
 
     /// The corners of a triangle where angles and areas are told of.
@@ -221,7 +225,7 @@ impl<'a> MeshView<'a> {
         let ours = [F::Msh41, F::Msh22, F::Json, F::Ron];
         let carry = |formats: &[F]| ours.contains(&format) || formats.contains(&format);
         let vtk = [F::Vtu, F::Vtk, F::Ugrid];
-        let inputs = carry(&[F::NodeEle, F::Poly, F::Svg]) || vtk.contains(&format);
+        let inputs = carry(&[F::NodeEle, F::Poly]) || vtk.contains(&format) || format.is_svg();
         let markers = carry(&[F::NodeEle, F::Poly, F::Medit]) || vtk.contains(&format);
         let regions = carry(&[F::NodeEle, F::Medit, F::GeoJson, F::TwoDm]) || vtk.contains(&format);
         let edges = carry(&[F::Edge, F::Poly, F::Medit, F::TwoDm, F::Fort14, F::Ugrid]);
@@ -320,8 +324,8 @@ impl<'a> MeshView<'a> {
 
 impl fmt::Debug for MeshView<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("MeshView")
-            .field("vertices", &self.mesh.vertices.len())
+        let mut view = f.debug_struct("MeshView");
+        view.field("vertices", &self.mesh.vertices.len())
             .field("triangles", &self.mesh.triangles.len())
             .field("input_indices", &self.input_indices.is_some())
             .field("vertex_markers", &self.vertex_markers.is_some())
@@ -332,8 +336,9 @@ impl fmt::Debug for MeshView<'_> {
             .field("promised", &self.promised)
             .field("epsg", &self.epsg)
             .field("definition", &self.definition)
-            .field("geographic", &self.geographic.is_some())
-            .field("picture", &self.picture)
-            .finish()
+            .field("geographic", &self.geographic.is_some());
+        #[cfg(feature = "plot")]
+        view.field("picture", &self.picture);
+        view.finish()
     }
 }

@@ -13,7 +13,7 @@ use std::cell::Cell;
 use std::io::{self, BufRead, Read};
 use std::rc::Rc;
 
-use hexdel_geom::{AngleBounds, DVec2, VertexId};
+use hexdel_geom::{AngleBounds, DVec2, MarkedEdge, VertexId};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
@@ -21,7 +21,6 @@ use crate::data::MeshData;
 use crate::error::ReadError;
 use crate::lines::clip_message;
 use crate::promised::{Promised, PromisedDomain};
-use crate::view::MarkedEdge;
 use crate::vtu_array::{Appended, Array, Encoding, Values};
 
 /// VTK's numbers of cell types.

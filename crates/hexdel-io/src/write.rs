@@ -4,6 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use hexdel_geom::{DVec2, Pslg};
+#[cfg(feature = "plot")]
+use hexdel_plot::PlotError;
 
 use crate::atomic::Draft;
 use crate::error::WriteError;
@@ -12,8 +14,8 @@ use crate::read::beside;
 use crate::text::TextWriter;
 use crate::view::MeshView;
 use crate::{
-    fort14, graph_geojson, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off, picture,
-    polygons_out, stl, svg, triangle_out, twodm, ugrid, vtk, vtu,
+    fort14, graph_geojson, graph_json, graph_ron, medit, mesh_json, mesh_ron, msh_out, obj, off,
+    polygons_out, stl, triangle_out, twodm, ugrid, vtk, vtu,
 };
 
 /// Writes a mesh, or its picture, in the format that the extension stands for.
@@ -201,17 +203,30 @@ fn stream_writer(format: MeshFormat) -> Option<StreamWriter> {
         MeshFormat::Ugrid => Some(ugrid::write_ugrid),
         MeshFormat::Vtk => Some(vtk::write_vtk),
         MeshFormat::Stl => Some(stl::write_stl),
-        MeshFormat::Svg => Some(svg::write_svg),
+        #[cfg(feature = "plot")]
+        MeshFormat::Svg => Some(|out, view| drawn(view.plot().write_svg(out))),
         #[cfg(feature = "png")]
-        MeshFormat::Png => Some(crate::png::write_png),
+        MeshFormat::Png => Some(|out, view| drawn(view.plot().write_png(out))),
         MeshFormat::NodeEle => None,
     }
+}
+
+/// What is left to fail of a picture that was checked: the system.
+#[cfg(feature = "plot")]
+fn drawn(result: Result<(), PlotError>) -> io::Result<()> {
+    result.map_err(|error| match error {
+        PlotError::Io(source) => source,
+        other => io::Error::other(other),
+    })
 }
 
 fn check(format: MeshFormat, view: &MeshView<'_>, name: &str) -> Result<(), WriteError> {
     view.check(name)?;
     match format {
-        format if format.is_picture() => picture::check(view, name),
+        #[cfg(feature = "plot")]
+        format if format.is_picture() => {
+            view.plot().check().map_err(|source| WriteError::Picture { file: name.to_owned(), source })
+        }
         MeshFormat::Medit => medit::check_regions(view, "Medit's format", name),
         MeshFormat::TwoDm => medit::check_regions(view, "the format .2dm", name),
         MeshFormat::Ugrid => ugrid::check(view.mesh, name),

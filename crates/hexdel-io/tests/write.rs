@@ -10,8 +10,8 @@ use std::path::Path;
 
 use hexdel_geom::{DVec2, Pslg, TriMesh, VertexId};
 use hexdel_io::{
-    MarkedEdge, MeshFormat, MeshView, Overlay, OverlayClass, Picture, Polygon, ReadError, Rgb, WriteError,
-    read_mesh, write_mesh, write_mesh_pair_to, write_mesh_to, write_points,
+    MarkedEdge, MeshFormat, MeshView, ReadError, WriteError, read_mesh, write_mesh, write_mesh_pair_to,
+    write_mesh_to, write_points,
 };
 use support::squares;
 
@@ -279,81 +279,34 @@ fn ron_that_is_no_mesh() {
     assert!(matches!(error, ReadError::Ron { .. }), "{error:?}");
 }
 
+#[cfg(feature = "plot")]
 #[test]
-fn svg_draws_every_triangle_point_and_label() {
-    let mesh = squares(8);
-    let indices: Vec<_> = (0..81).map(|i| (i < 9).then_some(i)).collect();
-    let svg = text(MeshFormat::Svg, &MeshView::new(&mesh).with_input_indices(&indices));
-    let triangles = svg.split("id=\"triangles\"").nth(1).unwrap().split("</g>").next().unwrap();
-    assert_eq!(triangles.matches('M').count(), 128);
-    // Nine points and one in the legend.
-    assert_eq!(svg.matches("<circle").count(), 10);
-    for label in ["128 triangles", "angles 45.00° to 90.00°", "9 input points", ">30°<"] {
-        assert!(svg.contains(label), "{label}");
-    }
-    assert!(!svg.contains("below"));
-    assert_eq!(svg, text(MeshFormat::Svg, &MeshView::new(&mesh).with_input_indices(&indices)));
-}
+fn pictures_are_those_of_the_plot() {
+    use hexdel_plot::{ColourBy, Plot, PlotError};
 
-#[test]
-fn svg_marks_triangles_below_the_scale() {
-    let mesh = squares(1);
-    let mut picture = Picture::default();
-    picture.bounds_deg = [50.0, 90.0];
-    let svg = text(MeshFormat::Svg, &MeshView::new(&mesh).with_picture(picture));
-    assert!(svg.contains("below 50°: 2"));
-}
+    let mesh = squares(3);
+    let indices: Vec<_> = (0..16).map(|i| (i < 9).then_some(i)).collect();
+    let (regions, edge) = ([2.0; 18], |a, b| MarkedEdge { ends: [a, b].map(VertexId::new), marker: 3 });
+    let edges = [edge(0, 5), edge(5, 10)];
+    let mut view =
+        MeshView::new(&mesh).with_input_indices(&indices).with_regions(&regions).with_marked_edges(&edges);
+    view.picture.colour_by = ColourBy::Region;
+    let plot = Plot::new(&mesh)
+        .with_input_indices(&indices)
+        .with_regions(&regions)
+        .with_marked_edges(&edges)
+        .with_picture(view.picture);
+    let mut drawn = Vec::new();
+    plot.write_svg(&mut drawn).unwrap();
+    assert_eq!(text(MeshFormat::Svg, &view).as_bytes(), drawn);
 
-#[test]
-fn svg_overlay_has_a_legend() {
-    let mesh = squares(1);
-    let square = |x: f64, level| Polygon {
-        corners: vec![
-            DVec2::new(x, 0.0),
-            DVec2::new(x + 1.0, 0.0),
-            DVec2::new(x + 1.0, 1.0),
-            DVec2::new(x, 1.0),
-        ],
-        class: 0,
-        level,
-    };
-    let overlay = Overlay {
-        title: "classes".to_owned(),
-        classes: vec![OverlayClass { label: "a < b & c".to_owned(), colour: Rgb([200, 0, 0]) }],
-        polygons: vec![square(0.0, 2), square(1.0, 5)],
-    };
-    let mut picture = Picture::default();
-    picture.fill_triangles = false;
-    picture.size_px = 200.0;
-    picture.overlay = Some(&overlay);
-    let svg = text(MeshFormat::Svg, &MeshView::new(&mesh).with_picture(picture));
-    for part in ["classes", "a &lt; b &amp; c", "level 2 light to 5 dark", "#c80000"] {
-        assert!(svg.contains(part), "{part}");
-    }
-    // The second polygon reaches beyond the mesh, the drawing fits both.
-    assert!(svg.contains("M112 112l100 0 0-100-100 0z"), "{svg}");
-
-    let mut wrong = overlay.clone();
-    wrong.polygons[1].class = 1;
-    picture.overlay = Some(&wrong);
-    let view = MeshView::new(&mesh).with_picture(picture);
+    view.regions = None;
     let error = write_mesh_to(&mut Vec::new(), MeshFormat::Svg, &view, "s").unwrap_err();
-    assert_eq!(error.to_string(), "s: polygon 1 refers to number 1 of 1");
-}
-
-#[test]
-fn pictures_of_extreme_meshes() {
-    let triangle = |scale: f64| TriMesh {
-        vertices: vec![-DVec2::X * scale, DVec2::X * scale, DVec2::Y * scale],
-        triangles: vec![[0, 1, 2].map(VertexId::new)],
-    };
-    for scale in [f64::MAX, 1e-300, f64::from_bits(1), 0.0] {
-        let svg = text(MeshFormat::Svg, &MeshView::new(&triangle(scale)));
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{scale} {svg}");
-        if scale > 1e-301 {
-            assert!(svg.contains("M12 512l1000 0-500-500z"), "{scale} {svg}");
-        }
-    }
-    let empty = text(MeshFormat::Svg, &MeshView::new(&TriMesh::default()));
-    assert!(!empty.contains("NaN") && empty.ends_with("</svg>\n"), "{empty}");
+    assert!(matches!(error, WriteError::Picture { source: PlotError::NoRegions, .. }), "{error:?}");
+    assert_eq!(error.to_string(), "s: the mesh has no regions to colour triangles by");
+    assert_eq!(error.renamed("t").to_string(), "t: the mesh has no regions to colour triangles by");
+    // Nothing is left behind.
+    let folder = tempfile::tempdir().unwrap();
+    write_mesh(folder.path().join("m.svg"), &view).unwrap_err();
+    assert!(names(folder.path()).is_empty());
 }

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::session::{PointId, SessionError};
 use crate::size::SizeError;
 use hexdel_geom::{DVec2, PointsError, PslgLayoutError};
+#[cfg(feature = "io")]
 use hexdel_io::ReadError;
 use hexdel_pslg::{Feature, PslgError, ValidateError};
 use serde::Serialize;
@@ -45,7 +46,7 @@ impl Fault {
         Self { kind, ..Self::default() }
     }
 
-    /// What is wrong with a file.
+    /// What is wrong with a file, with the feature `io`.
     ///
     /// ```
     /// use hexdel::io::{PointFormat, PointReader};
@@ -54,6 +55,7 @@ impl Fault {
     /// let fault = hexdel::Fault::of_reading(&refused.unwrap_err());
     /// assert_eq!((fault.kind, fault.line), ("file", Some(2)));
     /// ```
+    #[cfg(feature = "io")]
     pub fn of_reading(error: &ReadError) -> Self {
         let kind = if matches!(error, ReadError::Missing { .. }) { "missing_file" } else { "file" };
         Self { line: error.line(), ..Self::new(kind) }

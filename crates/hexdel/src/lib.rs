@@ -32,15 +32,25 @@
 //! | [`refine`] | the rules engine |
 //! | [`optimize`] | local optimisation to angle bounds |
 //! | [`pslg`] | segments, holes, regions and polygons |
-//! | [`io`] | formats and pictures |
+//! | [`io`] | formats of points and meshes, with the feature `io` |
+//! | [`plot`] | pictures of meshes, with the feature `plot` |
+//!
+//! | feature | what | on by default |
+//! |---|---|---|
+//! | `io` | [`io`]: formats | yes |
+//! | `plot` | [`plot`] and [`picture`]: pictures in SVG | yes |
+//! | `png` | pictures in PNG | yes |
+//! | `spade` | conversions to and from the triangulations of the crate spade | |
+//!
+//! Without features this is a mesher alone, and compiles for `wasm32-unknown-unknown`.
 
 /// The examples of the README, so that they stay true.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "io"))]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
 /// The examples of the guide.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "plot", feature = "io"))]
 #[doc = include_str!("../../../docs/guide.md")]
 struct Guide;
 
@@ -51,6 +61,7 @@ mod fault;
 pub mod generate;
 mod graph;
 pub mod mesher;
+#[cfg(feature = "plot")]
 pub mod picture;
 mod placement;
 pub mod session;
@@ -66,8 +77,11 @@ mod workers;
 pub use hexdel_classify as classify;
 pub use hexdel_geom as geom;
 pub use hexdel_grid as grid;
+#[cfg(feature = "io")]
 pub use hexdel_io as io;
 pub use hexdel_optimize as optimize;
+#[cfg(feature = "plot")]
+pub use hexdel_plot as plot;
 pub use hexdel_pslg as pslg;
 pub use hexdel_refine as refine;
 

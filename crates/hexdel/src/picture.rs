@@ -1,11 +1,10 @@
 //! Pictures of the hexagon grid behind a mesh (paper, Fig. 3, 5 and 7).
 
 use crate::mesher::Method;
-use crate::start::Gridded;
 use crate::triangulation::Triangulation;
 use hexdel_classify::Class;
-use hexdel_classify::hexagons::{Hexagon, hexagons, holders};
-use hexdel_io::{Groups, Overlay, OverlayClass, Polygon, Rgb};
+use hexdel_classify::hexagons::{Hexagon, holders};
+use hexdel_plot::{Groups, Overlay, OverlayClass, Polygon, Rgb};
 
 /// What a hexagon is in pictures.
 type Kind = (Option<Class>, &'static str, Rgb);
@@ -33,20 +32,6 @@ const PLAIN: [Kind; 3] = [
 ];
 
 impl Triangulation {
-    /// The hexagons whose dual the mesh is, with their classes; of
-    /// [`Method::Compact`] those of the mesh that optimisation began with, none if that has grown.
-    ///
-    /// ```
-    /// # use hexdel::DVec2;
-    /// let made = hexdel::triangulate(&[DVec2::ZERO, DVec2::X])?;
-    /// assert!(made.hexagons().iter().any(|h| h.class.is_some()));
-    /// # Ok::<(), hexdel::Error>(())
-    /// ```
-    pub fn hexagons(&self) -> Vec<Hexagon> {
-        let of = |g: &Gridded| hexagons(g.refiner.grid(), g.domain, &g.refiner.occupants());
-        self.grid.as_ref().map(of).unwrap_or_default()
-    }
-
     /// The hexagon grid as a layer of a picture, coloured by class and level; if
     /// the templates did not make the mesh, only occupied hexagons are told apart.
     ///

@@ -2,6 +2,7 @@
 
 use crate::mesher::Method;
 use crate::start::{Gridded, Start};
+use hexdel_classify::hexagons::{Hexagon, hexagons};
 use hexdel_geom::certificate::DualCheck;
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, Voronoi, VoronoiSummary};
 use serde::Serialize;
@@ -124,6 +125,20 @@ impl Triangulation {
             domain_radius: self.patch.radius,
             seconds: self.seconds,
         }
+    }
+
+    /// The hexagons whose dual the mesh is, with their classes; of
+    /// [`Method::Compact`] those of the mesh that optimisation began with, none if that has grown.
+    ///
+    /// ```
+    /// # use hexdel::DVec2;
+    /// let made = hexdel::triangulate(&[DVec2::ZERO, DVec2::X])?;
+    /// assert!(made.hexagons().iter().any(|h| h.class.is_some()));
+    /// # Ok::<(), hexdel::Error>(())
+    /// ```
+    pub fn hexagons(&self) -> Vec<Hexagon> {
+        let of = |g: &Gridded| hexagons(g.refiner.grid(), g.domain, &g.refiner.occupants());
+        self.grid.as_ref().map(of).unwrap_or_default()
     }
 
     /// For each vertex the first input point it stands for, if any.

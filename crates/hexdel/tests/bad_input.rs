@@ -1,6 +1,7 @@
 //! Input that cannot be meshed: an error of its own for each fault, naming
 //! what is at fault.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

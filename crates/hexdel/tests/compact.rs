@@ -1,5 +1,6 @@
 //! The compact method: what it promises, on every kind of input.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

@@ -1,6 +1,7 @@
 //! Bounds below 90 degrees, and the bound on edges of the Voronoi dual that asks for them: optimised for, checked
 //! from scratch, refused where no mesh can keep it.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

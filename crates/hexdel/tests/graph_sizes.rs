@@ -1,12 +1,13 @@
 //! Edges of the meshes of PSLGs no longer than wanted, or listed, and sizes that
 //! are refused.
 
+#![cfg(feature = "io")]
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 mod common;
 
 use common::graph;
-use hexdel::io::Raster;
+use hexdel::geom::Raster;
 use hexdel::optimize::triangle_fits;
 use hexdel::pslg::{PslgError, Reason};
 use hexdel::{DVec2, Domain, Error, Mesher, Method, Pslg, PslgTriangulation, SegmentMethod, Size, SizeError};

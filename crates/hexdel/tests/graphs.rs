@@ -1,6 +1,7 @@
 //! PSLGs of points and segments: domains, bounds, repair, what the result
 //! says, and errors that name what is at fault.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

@@ -1,5 +1,6 @@
 //! Progress that only advances, and work that stops when asked to.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

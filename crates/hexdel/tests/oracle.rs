@@ -10,6 +10,7 @@
 //! for rounding, so its hull has slivers along them that our mesh has not; all
 //! else must be equal in number.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

@@ -1,5 +1,6 @@
 //! Polygons in every domain, and warnings in the numbers of the PSLG given.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

@@ -1,6 +1,7 @@
 //! Polygons are areas: what the meshes of `fixtures/polygons` cover, by attribute,
 //! against areas worked out by the shoelace formula.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

@@ -1,6 +1,7 @@
 //! The four promises of the paper's abstract, in every certificate: angles, aspect ratio,
 //! the Delaunay property, the shortest edge.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

@@ -4,6 +4,7 @@
 //! A failing case is not kept by proptest: once understood it goes to
 //! `fixtures/regressions`, where every later test sees it.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

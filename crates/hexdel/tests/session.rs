@@ -1,5 +1,6 @@
 //! Sessions: what holds after every call, and what a call that fails leaves.
 
+#![cfg(feature = "io")]
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 #[path = "common/sessions.rs"]

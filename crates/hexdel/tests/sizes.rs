@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
-use hexdel::io::Raster;
+use hexdel::geom::Raster;
 use hexdel::optimize::triangle_fits;
 use hexdel::{DVec2, Error, Mesher, Method, Size, SizeError, generate};
 

@@ -8,6 +8,7 @@
 //! `cargo xtask regen` renews the records; `cargo xtask regen --check` holds
 //! them.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

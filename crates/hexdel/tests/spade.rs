@@ -1,5 +1,6 @@
 //! Conversions to the triangulations of spade and back.
 
+#![cfg(feature = "io")]
 #![cfg(feature = "spade")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 

@@ -1,6 +1,7 @@
 //! Sessions of templates: what holds after every call, and what a call that
 //! fails leaves.
 
+#![cfg(feature = "io")]
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 #[path = "common/sessions.rs"]

@@ -5,6 +5,7 @@
 //! compact meshes some of two to seven points, and of the paper's way with segments a few
 //! PSLGs. `cargo xtask regen` renews the records, `cargo xtask regen --check` holds them.
 
+#![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod common;

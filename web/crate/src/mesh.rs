@@ -7,9 +7,9 @@ use crate::options::Options;
 use crate::watch::Watch;
 use hexdel::geom::{Voronoi, quality};
 use hexdel::io::{
-    MarkedEdge, MeshFormat, MeshView, Overlay, Picture, Promised, PromisedDomain, write_mesh_pair_to,
-    write_mesh_to,
+    MarkedEdge, MeshFormat, MeshView, Promised, PromisedDomain, write_mesh_pair_to, write_mesh_to,
 };
+use hexdel::plot::{Overlay, Picture};
 use hexdel::{
     Certificate, DVec2, Domain, ExceptionEntry, Mesher, Pslg, PslgTriangulation, RepairEntry, SegmentMethod,
     SessionCheck, SessionMesh, TriMesh, Triangulation, VertexId,

@@ -7,7 +7,8 @@
 use super::Files;
 use hexdel::generate::{Kind, generate};
 use hexdel::geom::Pslg;
-use hexdel::io::{MarkedEdge, MeshFormat, MeshView, Picture, read_points, write_mesh_to};
+use hexdel::io::{MarkedEdge, MeshFormat, MeshView, read_points, write_mesh_to};
+use hexdel::plot::Picture;
 use hexdel::{Certificate, DVec2, Mesher, Method};
 use rayon::prelude::*;
 use std::error::Error;

@@ -13,7 +13,8 @@ use hexdel::{
     AngleBounds, Domain, Mesher, Overlaps, Pslg, PslgReport, PslgTriangulation, RepairEntry, SegmentMethod,
     Warning,
 };
-use hexdel_io::{MarkedEdge, MeshView, Picture, PointFile, Promised, PromisedDomain};
+use hexdel_io::{MarkedEdge, MeshView, PointFile, Promised, PromisedDomain};
+use hexdel_plot::Picture;
 use std::fmt::{Display, Write as _};
 
 /// Items of a list that are shown; the report has all.

@@ -9,7 +9,8 @@ use crate::exit::{Outcome, Verdict, warn};
 use crate::plot::Colour;
 use crate::progress::Progress;
 use hexdel::{Certificate, Overlaps, Size, Triangulation};
-use hexdel_io::{ColourBy, MeshView, Overlay, Promised, PromisedDomain};
+use hexdel_io::{MeshView, Promised, PromisedDomain};
+use hexdel_plot::{ColourBy, Overlay};
 use std::fmt::Write as _;
 
 /// Meshes points, writes the mesh and says what it is like.

@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> Outcome {
         second_order: switches.second_order,
         epsg: None,
         about: &About::default(),
-        picture: hexdel_io::Picture::default(),
+        picture: hexdel_plot::Picture::default(),
     };
     finished.write(&outputs)
 }

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use hexdel_geom::{DVec2, PslgLayoutError};
+use hexdel_geom::PslgLayoutError;
 use thiserror::Error;
 
 /// Why a file was not written.
@@ -98,7 +98,7 @@ pub enum WriteError {
     NonFinite {
         /// The file.
         file: String,
-        /// "point", "vertex", "hole", "region" or "polygon".
+        /// "point", "vertex", "hole" or "region".
         item: &'static str,
         /// Its index.
         index: usize,
@@ -107,18 +107,18 @@ pub enum WriteError {
         /// Its coordinates.
         y: f64,
     },
-    /// A triangle or polygon refers to something that is not there.
+    /// A triangle or edge refers to something that is not there.
     #[error("{file}: {item} {index} refers to number {target} of {count}")]
     IndexOutOfRange {
         /// The file.
         file: String,
-        /// "triangle", "edge", "segment" or "polygon".
+        /// "triangle", "edge" or "segment".
         item: &'static str,
         /// Its index.
         index: usize,
-        /// The vertex or class it names.
+        /// The vertex it names.
         target: usize,
-        /// How many vertices or classes there are.
+        /// How many vertices there are.
         count: usize,
     },
     /// The arrays of the PSLG do not fit together.
@@ -129,33 +129,14 @@ pub enum WriteError {
         /// Which do not.
         source: PslgLayoutError,
     },
-    /// The bounds of a picture must be bounds of angles.
-    #[error("{file}: bounds of angles must be 0 to 60 and 60 to 180 degrees, got {low} and {high}")]
-    Bounds {
+    /// A picture cannot be drawn as wanted, with the feature `plot`.
+    #[cfg(feature = "plot")]
+    #[error("{file}: {source}")]
+    Picture {
         /// The file.
         file: String,
-        /// The smaller bound, degrees.
-        low: f64,
-        /// The larger bound, degrees.
-        high: f64,
-    },
-    /// The box that a picture is to show is empty, not finite, or beside the mesh.
-    #[error("{file}: the box from ({}, {}) to ({}, {}) {fault}", min.x, min.y, max.x, max.y)]
-    Zoom {
-        /// The file.
-        file: String,
-        /// The smaller coordinates.
-        min: DVec2,
-        /// The larger coordinates.
-        max: DVec2,
-        /// What is wrong with it.
-        fault: &'static str,
-    },
-    /// A picture is to be coloured by regions, of which the mesh has none.
-    #[error("{file}: the mesh has no regions to colour triangles by")]
-    NoRegions {
-        /// The file.
-        file: String,
+        /// Why.
+        source: hexdel_plot::PlotError,
     },
     /// The format has no meshes without triangles, or without vertices.
     #[error("{file}: {format} cannot hold a mesh without {item}")]
@@ -199,26 +180,26 @@ impl WriteError {
     /// The same of a file by another name, as that of a draft is not to be told.
     #[must_use]
     pub fn renamed(mut self, name: &str) -> Self {
-        let (Self::Io { file, .. }
-        | Self::UnknownExtension { file, .. }
-        | Self::NotAFile { file, .. }
-        | Self::TwoFiles { file, .. }
-        | Self::ReadOnly { file, .. }
-        | Self::Unrepresentable { file, .. }
-        | Self::Polygons { file, .. }
-        | Self::Seeds { file, .. }
-        | Self::Ring { file, .. }
-        | Self::PointsOnly { file, .. }
-        | Self::NonFinite { file, .. }
-        | Self::IndexOutOfRange { file, .. }
-        | Self::Layout { file, .. }
-        | Self::Bounds { file, .. }
-        | Self::Zoom { file, .. }
-        | Self::NoRegions { file, .. }
-        | Self::Empty { file, .. }
-        | Self::TooMany { file, .. }
-        | Self::Length { file, .. }) = &mut self;
-        name.clone_into(file);
+        match &mut self {
+            #[cfg(feature = "plot")]
+            Self::Picture { file, .. } => name.clone_into(file),
+            Self::Io { file, .. }
+            | Self::UnknownExtension { file, .. }
+            | Self::NotAFile { file, .. }
+            | Self::TwoFiles { file, .. }
+            | Self::ReadOnly { file, .. }
+            | Self::Unrepresentable { file, .. }
+            | Self::Polygons { file, .. }
+            | Self::Seeds { file, .. }
+            | Self::Ring { file, .. }
+            | Self::PointsOnly { file, .. }
+            | Self::NonFinite { file, .. }
+            | Self::IndexOutOfRange { file, .. }
+            | Self::Layout { file, .. }
+            | Self::Empty { file, .. }
+            | Self::TooMany { file, .. }
+            | Self::Length { file, .. } => name.clone_into(file),
+        }
         self
     }
 

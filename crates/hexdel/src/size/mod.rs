@@ -10,8 +10,7 @@ mod waves;
 
 use crate::error::Error;
 use cones::Cones;
-use hexdel_geom::DVec2;
-use hexdel_io::Raster;
+use hexdel_geom::{DVec2, Raster};
 use hexdel_optimize::Sizing;
 use raster::Field;
 use serde::{Deserialize, Serialize};

@@ -2,8 +2,7 @@
 //! allow, interpolated between the centres of cells.
 
 use super::SizeError;
-use hexdel_geom::DVec2;
-use hexdel_io::Raster;
+use hexdel_geom::{DVec2, Raster};
 use serde::{Deserialize, Serialize};
 
 /// The smoothed raster.

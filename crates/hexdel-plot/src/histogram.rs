@@ -75,23 +75,23 @@ impl Histogram {
         at: [f64; 2],
         unit: f64,
     ) -> io::Result<()> {
-        let plot = Plot { range: self.range(bounds_deg), at, unit };
-        bounds_deg.into_iter().try_for_each(|bound| plot.mark(canvas, bound))?;
-        self.bars(canvas, &plot)?;
-        plot.axis(canvas)
+        let axes = Axes { range: self.range(bounds_deg), at, unit };
+        bounds_deg.into_iter().try_for_each(|bound| axes.mark(canvas, bound))?;
+        self.bars(canvas, &axes)?;
+        axes.axis(canvas)
     }
 
-    fn bars(&self, canvas: &mut dyn Canvas, plot: &Plot) -> io::Result<()> {
+    fn bars(&self, canvas: &mut dyn Canvas, axes: &Axes) -> io::Result<()> {
         let most = self.counts.iter().copied().max().unwrap_or(0).max(1);
         canvas.begin(Style::filled(BARS));
-        for degree in plot.range[0]..=plot.range[1] {
+        for degree in axes.range[0]..=axes.range[1] {
             let count = self.counts[degree];
             if count == 0 {
                 continue;
             }
             let height = (count as f64 / most as f64).sqrt();
-            let [left, right] = [-0.45, 0.45].map(|half| plot.x(degree as f64 + half));
-            let [top, bottom] = [plot.y(height), plot.y(0.0)];
+            let [left, right] = [-0.45, 0.45].map(|half| axes.x(degree as f64 + half));
+            let [top, bottom] = [axes.y(height), axes.y(0.0)];
             canvas.ring(&[[left, top], [right, top], [right, bottom], [left, bottom]].map(place), true)?;
         }
         canvas.end()
@@ -99,13 +99,13 @@ impl Histogram {
 }
 
 /// Where degrees and heights are on the page.
-struct Plot {
+struct Axes {
     range: [usize; 2],
     at: [f64; 2],
     unit: f64,
 }
 
-impl Plot {
+impl Axes {
     fn x(&self, degree: f64) -> f64 {
         // A degree of room on each side.
         let [low, high] = self.range.map(|d| d as f64);

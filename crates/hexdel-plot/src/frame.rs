@@ -7,7 +7,7 @@
 
 use crate::canvas::Place;
 use crate::picture::Picture;
-use crate::view::MeshView;
+use crate::plot::Plot;
 use hexdel_geom::DVec2;
 
 /// White space around drawing and legend, pixels of a picture of ordinary size.
@@ -41,11 +41,11 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    pub(crate) fn new(view: &MeshView<'_>, largest_px: f64) -> Self {
-        let [min, max] = view.picture.zoom.unwrap_or_else(|| extent(view));
+    pub(crate) fn new(plot: &Plot<'_>, largest_px: f64) -> Self {
+        let [min, max] = plot.picture.zoom.unwrap_or_else(|| extent(plot));
         let half_extent = (max * 0.5 - min * 0.5).max(DVec2::ZERO);
         let half_side = half_extent.max_element();
-        let size = match view.picture.size_px {
+        let size = match plot.picture.size_px {
             finite if finite.is_finite() => finite.clamp(16.0, largest_px),
             _ => Picture::default().size_px,
         };
@@ -58,7 +58,7 @@ impl Frame {
             height: 0.0,
             unit,
             margin: MARGIN * unit,
-            zoomed: view.picture.zoom.is_some(),
+            zoomed: plot.picture.zoom.is_some(),
         };
         frame.width = frame.length(half_extent.x);
         frame.height = frame.length(half_extent.y);
@@ -170,11 +170,11 @@ impl Frame {
 }
 
 /// The box around mesh and overlay.
-fn extent(view: &MeshView<'_>) -> [DVec2; 2] {
-    let polygons = view.picture.overlay.map_or(&[][..], |o| &o.polygons);
+fn extent(plot: &Plot<'_>) -> [DVec2; 2] {
+    let polygons = plot.picture.overlay.map_or(&[][..], |o| &o.polygons);
     let corners = polygons.iter().flat_map(|polygon| &polygon.corners);
     let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for &p in view.mesh.vertices.iter().chain(corners) {
+    for &p in plot.mesh.vertices.iter().chain(corners) {
         (min, max) = (min.min(p), max.max(p));
     }
     if min.x > max.x { [DVec2::ZERO; 2] } else { [min, max] }

@@ -8,15 +8,15 @@ use crate::colour::{BLACK, INK, Rgb, WHITE};
 use crate::frame::Frame;
 use crate::legend::Legend;
 use crate::picture::{Overlay, Picture};
+use crate::plot::Plot;
 use crate::survey::Survey;
-use crate::view::MeshView;
 use hexdel_geom::TriangleId;
 use std::collections::BTreeMap;
 use std::io;
 
 /// A picture that is ready to be drawn.
 pub(crate) struct Scene<'a> {
-    view: &'a MeshView<'a>,
+    plot: &'a Plot<'a>,
     frame: Frame,
     survey: Survey,
     legend: Legend,
@@ -30,13 +30,13 @@ impl<'a> Scene<'a> {
     /// # Complexity
     ///
     /// Linear but for sorting; 12 bytes per triangle in view.
-    pub(crate) fn new(view: &'a MeshView<'a>, largest_px: f64) -> Self {
-        let frame = Frame::new(view, largest_px);
-        let survey = Survey::new(view, &frame);
-        let overlay = overlay_in_view(view, &frame);
-        let dots = dots(view, &frame);
-        let legend = Legend::new(view, &frame, &survey, dots.len(), &overlay.keys().copied().collect());
-        Self { view, frame, survey, legend, overlay, dots }
+    pub(crate) fn new(plot: &'a Plot<'a>, largest_px: f64) -> Self {
+        let frame = Frame::new(plot, largest_px);
+        let survey = Survey::new(plot, &frame);
+        let overlay = overlay_in_view(plot, &frame);
+        let dots = dots(plot, &frame);
+        let legend = Legend::new(plot, &frame, &survey, dots.len(), &overlay.keys().copied().collect());
+        Self { plot, frame, survey, legend, overlay, dots }
     }
 
     /// Width and height, pixels.
@@ -46,7 +46,7 @@ impl<'a> Scene<'a> {
     }
 
     pub(crate) fn draw(&self, canvas: &mut dyn Canvas) -> io::Result<()> {
-        if self.view.picture.fill_triangles {
+        if self.plot.picture.fill_triangles {
             self.triangles(canvas)?;
             self.overlay(canvas)?;
         } else {
@@ -60,14 +60,14 @@ impl<'a> Scene<'a> {
         }
         canvas.open("legend");
         let corner = [self.frame.width + 2.0 * self.frame.margin, self.frame.margin];
-        self.legend.draw(canvas, self.view, &self.survey.histogram, corner, self.frame.unit)?;
+        self.legend.draw(canvas, self.plot, &self.survey.histogram, corner, self.frame.unit)?;
         canvas.close();
         Ok(())
     }
 
     /// Shapes of one look for each size and shade.
     fn triangles(&self, canvas: &mut dyn Canvas) -> io::Result<()> {
-        let Picture { fill_triangles: filled, edges, .. } = self.view.picture;
+        let Picture { fill_triangles: filled, edges, .. } = self.plot.picture;
         if !filled && !edges {
             return Ok(());
         }
@@ -83,7 +83,7 @@ impl<'a> Scene<'a> {
             canvas
                 .begin(Style { fill: filled.then_some(colour), stroke: Some((line, group[0].line_width())) });
             for look in group {
-                let corners = self.view.mesh.corners(TriangleId::new(look.triangle as usize));
+                let corners = self.plot.mesh.corners(TriangleId::new(look.triangle as usize));
                 self.frame.polygon(&corners, &mut places);
                 canvas.ring(&places, true)?;
             }
@@ -94,10 +94,10 @@ impl<'a> Scene<'a> {
     }
 
     fn overlay(&self, canvas: &mut dyn Canvas) -> io::Result<()> {
-        let Some(overlay) = self.view.picture.overlay else {
+        let Some(overlay) = self.plot.picture.overlay else {
             return Ok(());
         };
-        let filled = !self.view.picture.fill_triangles;
+        let filled = !self.plot.picture.fill_triangles;
         let levels = || self.overlay.keys().map(|(level, _)| *level);
         let levels = [levels().min().unwrap_or(0), levels().max().unwrap_or(0)];
         let mut places = Vec::new();
@@ -123,15 +123,15 @@ impl<'a> Scene<'a> {
 
     /// Edges with markers, heavier than all others.
     fn segments(&self, canvas: &mut dyn Canvas) -> io::Result<()> {
-        let edges = self.view.marked_edges.unwrap_or_default();
-        if edges.is_empty() || !self.view.picture.edges {
+        let edges = self.plot.marked_edges.unwrap_or_default();
+        if edges.is_empty() || !self.plot.picture.edges {
             return Ok(());
         }
         let mut places = Vec::new();
         canvas.open("segments");
         canvas.begin(Style::line(BLACK, hundredths(1.3 * self.frame.unit)));
         for edge in edges {
-            let ends = edge.ends.map(|v| self.view.mesh.vertices[v.index()]);
+            let ends = edge.ends.map(|v| self.plot.mesh.vertices[v.index()]);
             self.frame.polygon(&ends, &mut places);
             canvas.ring(&places, false)?;
         }
@@ -141,7 +141,7 @@ impl<'a> Scene<'a> {
     }
 
     fn input_points(&self, canvas: &mut dyn Canvas) -> io::Result<()> {
-        if self.dots.is_empty() || !self.view.picture.input_points {
+        if self.dots.is_empty() || !self.plot.picture.input_points {
             return Ok(());
         }
         let radius = (0.15 * spacing(&self.dots)).clamp(0.5, 3.0);
@@ -175,9 +175,9 @@ fn at_level(colour: Rgb, level: u32, [low, high]: [u32; 2]) -> Rgb {
     colour.mix(WHITE, 0.7 * depth)
 }
 
-fn overlay_in_view(view: &MeshView<'_>, frame: &Frame) -> BTreeMap<(u32, usize), Vec<u32>> {
+fn overlay_in_view(plot: &Plot<'_>, frame: &Frame) -> BTreeMap<(u32, usize), Vec<u32>> {
     let mut groups: BTreeMap<_, Vec<u32>> = BTreeMap::new();
-    let polygons: &[_] = view.picture.overlay.map_or(&[], |Overlay { polygons, .. }| polygons);
+    let polygons: &[_] = plot.picture.overlay.map_or(&[], |Overlay { polygons, .. }| polygons);
     for (i, polygon) in polygons.iter().enumerate() {
         if frame.shows(&polygon.corners) {
             groups.entry((polygon.level, polygon.class)).or_default().push(i as u32);
@@ -197,8 +197,8 @@ fn spacing(dots: &[Place]) -> f64 {
     if count < 2.0 { f64::INFINITY } else { (width * height / count).sqrt().max(width.max(height) / count) }
 }
 
-fn dots(view: &MeshView<'_>, frame: &Frame) -> Vec<Place> {
-    let indices = view.input_indices.unwrap_or_default();
-    let inputs = view.mesh.vertices.iter().zip(indices).filter(|(_, index)| index.is_some());
+fn dots(plot: &Plot<'_>, frame: &Frame) -> Vec<Place> {
+    let indices = plot.input_indices.unwrap_or_default();
+    let inputs = plot.mesh.vertices.iter().zip(indices).filter(|(_, index)| index.is_some());
     inputs.filter_map(|(&p, _)| frame.place(p)).collect()
 }

@@ -35,7 +35,7 @@ impl Rgb {
     /// without colour vision: dark blue, green, yellow.
     ///
     /// ```
-    /// use hexdel_io::Rgb;
+    /// use hexdel_plot::Rgb;
     /// assert_eq!(Rgb::of_scale(0.5), Rgb([0x21, 0x91, 0x8c]));
     /// ```
     pub fn of_scale(t: f64) -> Self {

@@ -5,8 +5,8 @@ use crate::colour::{BEYOND, BLACK, Rgb, WHITE};
 use crate::frame::Frame;
 use crate::histogram::Histogram;
 use crate::picture::{ColourBy, Overlay, OverlayClass};
+use crate::plot::Plot;
 use crate::survey::Survey;
-use crate::view::MeshView;
 use std::collections::BTreeSet;
 use std::io;
 
@@ -57,28 +57,28 @@ impl Legend {
     /// Decides what the legend of a picture says; `dots` is the number of input
     /// points in view, `classes` are those of the overlay in view.
     pub(crate) fn new(
-        view: &MeshView<'_>,
+        plot: &Plot<'_>,
         frame: &Frame,
         survey: &Survey,
         dots: usize,
         classes: &BTreeSet<(u32, usize)>,
     ) -> Self {
         let mut items = Vec::new();
-        if view.picture.fill_triangles && !survey.looks.is_empty() {
-            colour_items(&mut items, view, survey);
+        if plot.picture.fill_triangles && !survey.looks.is_empty() {
+            colour_items(&mut items, plot, survey);
         }
-        if !view.mesh.triangles.is_empty() {
-            count_items(&mut items, view, frame, survey);
+        if !plot.mesh.triangles.is_empty() {
+            count_items(&mut items, plot, frame, survey);
         }
         if dots > 0 {
-            let dot = if view.picture.input_points { Sign::Dot } else { Sign::None };
+            let dot = if plot.picture.input_points { Sign::Dot } else { Sign::None };
             items.push(Item::Line(dot, format!("{} input points", grouped(dots))));
         }
-        if let Some(overlay) = view.picture.overlay {
-            let filled = !view.picture.fill_triangles;
+        if let Some(overlay) = plot.picture.overlay {
+            let filled = !plot.picture.fill_triangles;
             overlay_items(&mut items, overlay, classes, filled);
         }
-        if view.picture.histogram && !survey.looks.is_empty() {
+        if plot.picture.histogram && !survey.looks.is_empty() {
             items.push(Item::Heading("angles, square root scale".to_owned()));
             items.push(Item::Histogram);
         }
@@ -101,7 +101,7 @@ impl Legend {
     pub(crate) fn draw(
         &self,
         canvas: &mut dyn Canvas,
-        view: &MeshView<'_>,
+        plot: &Plot<'_>,
         histogram: &Histogram,
         at: [f64; 2],
         unit: f64,
@@ -120,7 +120,7 @@ impl Legend {
                 Item::Gap => {}
                 Item::Histogram => {
                     let corner = pen.place([0.0, 0.0]);
-                    histogram.draw(pen.canvas, view.picture.bounds_deg, corner, unit)?;
+                    histogram.draw(pen.canvas, plot.picture.bounds_deg, corner, unit)?;
                 }
             }
             y = bottom;
@@ -129,9 +129,9 @@ impl Legend {
     }
 }
 
-fn colour_items(items: &mut Vec<Item>, view: &MeshView<'_>, survey: &Survey) {
-    let [low, high] = view.picture.bounds_deg;
-    match view.picture.colour_by {
+fn colour_items(items: &mut Vec<Item>, plot: &Plot<'_>, survey: &Survey) {
+    let [low, high] = plot.picture.bounds_deg;
+    match plot.picture.colour_by {
         ColourBy::SmallestAngle => scale_items(items, "smallest angle", low, "below", survey.beyond()),
         ColourBy::LargestAngle => scale_items(items, "largest angle", high, "above", survey.beyond()),
         ColourBy::Region => {
@@ -170,8 +170,8 @@ fn more(items: &mut Vec<Item>, classes: usize) {
     }
 }
 
-fn count_items(items: &mut Vec<Item>, view: &MeshView<'_>, frame: &Frame, survey: &Survey) {
-    let (shown, all) = (grouped(survey.looks.len()), grouped(view.mesh.triangles.len()));
+fn count_items(items: &mut Vec<Item>, plot: &Plot<'_>, frame: &Frame, survey: &Survey) {
+    let (shown, all) = (grouped(survey.looks.len()), grouped(plot.mesh.triangles.len()));
     let triangles =
         if frame.zoomed { format!("{shown} of {all} triangles") } else { format!("{all} triangles") };
     if !items.is_empty() {

@@ -4,20 +4,14 @@
 
 mod support;
 
-use hexdel_geom::{DVec2, TriMesh, VertexId};
-use hexdel_io::{
-    ColourBy, Groups, MarkedEdge, MeshFormat, MeshView, OverlayClass, Picture, Rgb, WriteError, write_mesh_to,
-};
+use hexdel_geom::{DVec2, MarkedEdge, TriMesh, VertexId};
+use hexdel_plot::{ColourBy, Groups, Overlay, OverlayClass, Picture, Plot, PlotError, Polygon, Rgb};
 use support::squares;
 
-fn bytes(format: MeshFormat, view: &MeshView<'_>) -> Vec<u8> {
+fn svg(plot: &Plot<'_>) -> String {
     let mut out = Vec::new();
-    write_mesh_to(&mut out, format, view, "stream").unwrap();
-    out
-}
-
-fn svg(view: &MeshView<'_>) -> String {
-    String::from_utf8(bytes(MeshFormat::Svg, view)).unwrap()
+    plot.write_svg(&mut out).unwrap();
+    String::from_utf8(out).unwrap()
 }
 
 /// A part of an SVG by its name.
@@ -26,10 +20,10 @@ fn part<'s>(svg: &'s str, name: &str) -> &'s str {
     rest.split_once("</g>").unwrap().0
 }
 
-fn refused(mesh: &TriMesh, change: impl Fn(&mut Picture<'_>)) -> WriteError {
-    let mut view = MeshView::new(mesh);
-    change(&mut view.picture);
-    write_mesh_to(&mut Vec::new(), MeshFormat::Svg, &view, "stream").unwrap_err()
+fn refused(mesh: &TriMesh, change: impl Fn(&mut Picture<'_>)) -> PlotError {
+    let mut plot = Plot::new(mesh);
+    change(&mut plot.picture);
+    plot.write_svg(&mut Vec::new()).unwrap_err()
 }
 
 #[test]
@@ -50,10 +44,10 @@ fn colours_say_angles() {
     };
     let red = "fill=\"#e01e37\"";
     let fills = |by, bounds_deg, what: &str| {
-        let mut view = MeshView::new(&mesh);
-        view.picture.colour_by = by;
-        view.picture.bounds_deg = bounds_deg;
-        let svg = svg(&view);
+        let mut plot = Plot::new(&mesh);
+        plot.picture.colour_by = by;
+        plot.picture.bounds_deg = bounds_deg;
+        let svg = svg(&plot);
         assert!(svg.contains(what), "{what}");
         let triangles = part(&svg, "triangles");
         let fills = triangles.split("fill=\"").skip(1).map(|rest| rest[..7].to_owned());
@@ -75,9 +69,9 @@ fn colours_say_angles() {
 fn colours_say_regions_and_groups() {
     let mesh = squares(2);
     let regions = [7.0, 7.0, -1.5, 7.0, 7.0, 7.0, 7.0, 0.0];
-    let mut view = MeshView::new(&mesh).with_regions(&regions);
-    view.picture.colour_by = ColourBy::Region;
-    let found = svg(&view);
+    let mut plot = Plot::new(&mesh).with_regions(&regions);
+    plot.picture.colour_by = ColourBy::Region;
+    let found = svg(&plot);
     for label in ["region", ">-1.5: 1<", ">0: 1<", ">7: 6<"] {
         assert!(found.contains(label), "{label}");
     }
@@ -91,9 +85,9 @@ fn colours_say_regions_and_groups() {
     let mut wide = squares(4);
     wide.triangles.truncate(30);
     let thirty: Vec<f64> = (0..30).map(f64::from).collect();
-    let mut view = MeshView::new(&wide).with_regions(&thirty);
-    view.picture.colour_by = ColourBy::Region;
-    assert!(svg(&view).contains("and 14 more"));
+    let mut plot = Plot::new(&wide).with_regions(&thirty);
+    plot.picture.colour_by = ColourBy::Region;
+    assert!(svg(&plot).contains("and 14 more"));
 
     let class = |label: &str, colour| OverlayClass { label: label.to_owned(), colour: Rgb(colour) };
     let groups = Groups {
@@ -101,9 +95,9 @@ fn colours_say_regions_and_groups() {
         classes: vec![class("none", [1, 2, 3]), class("odd", [4, 5, 6]), class("even", [7, 8, 9])],
         of_triangle: many.iter().map(|i| if i % 2.0 == 0.0 { 2 } else { 1 }).collect(),
     };
-    let mut view = MeshView::new(&mesh);
-    view.picture.colour_by = ColourBy::Groups(&groups);
-    let found = svg(&view);
+    let mut plot = Plot::new(&mesh);
+    plot.picture.colour_by = ColourBy::Groups(&groups);
+    let found = svg(&plot);
     for label in ["kinds", ">odd: 4<", ">even: 4<", "fill=\"#040506\"", "fill=\"#070809\""] {
         assert!(found.contains(label), "{label}");
     }
@@ -124,9 +118,9 @@ fn a_box_shows_what_crosses_it() {
         ([2.4, 2.4], [2.6, 2.6], 2, 0),
         ([2.6, 2.1], [2.6 + 1e-15, 2.1 + 1e-15], 1, 0),
     ] {
-        let mut view = MeshView::new(&mesh).with_input_indices(&indices);
-        view.picture.zoom = Some([DVec2::from(min), DVec2::from(max)]);
-        let svg = svg(&view);
+        let mut plot = Plot::new(&mesh).with_input_indices(&indices);
+        plot.picture.zoom = Some([DVec2::from(min), DVec2::from(max)]);
+        let svg = svg(&plot);
         assert!(svg.contains(&format!("{triangles} of 128 triangles")), "{min:?} {svg}");
         assert_eq!(part(&svg, "triangles").matches('M').count(), triangles);
         let circles = svg.matches("<circle").count();
@@ -143,17 +137,17 @@ fn a_box_shows_what_crosses_it() {
 #[test]
 fn an_overlay_is_outlined_over_colours() {
     let mesh = squares(1);
-    let overlay = hexdel_io::Overlay {
+    let overlay = Overlay {
         title: "cells".to_owned(),
         classes: vec![OverlayClass { label: "cell".to_owned(), colour: Rgb([9, 9, 9]) }],
-        polygons: vec![hexdel_io::Polygon { corners: mesh.vertices.clone(), class: 0, level: 0 }],
+        polygons: vec![Polygon { corners: mesh.vertices.clone(), class: 0, level: 0 }],
     };
-    let mut view = MeshView::new(&mesh);
-    view.picture.overlay = Some(&overlay);
-    let outlined = svg(&view);
+    let mut plot = Plot::new(&mesh);
+    plot.picture.overlay = Some(&overlay);
+    let outlined = svg(&plot);
     assert!(part(&outlined, "overlay").contains("fill=\"none\"") && !outlined.contains("cell<"));
-    view.picture.fill_triangles = false;
-    let filled = svg(&view);
+    plot.picture.fill_triangles = false;
+    let filled = svg(&plot);
     assert!(part(&filled, "overlay").contains("fill=\"#090909\"") && filled.contains("cell<"));
 }
 
@@ -162,25 +156,25 @@ fn marked_edges_are_drawn_over_the_others() {
     let mesh = squares(2);
     let edge = |a, b| MarkedEdge { ends: [a, b].map(VertexId::new), marker: 3 };
     let edges = [edge(0, 4), edge(4, 8)];
-    let mut view = MeshView::new(&mesh).with_marked_edges(&edges);
-    view.picture.size_px = 200.0;
-    assert!(part(&svg(&view), "segments").contains("M12 212l100-100M112 112l100-100\""));
+    let mut plot = Plot::new(&mesh).with_marked_edges(&edges);
+    plot.picture.size_px = 200.0;
+    assert!(part(&svg(&plot), "segments").contains("M12 212l100-100M112 112l100-100\""));
     // Only what a box needs of them.
-    view.picture.zoom = Some([DVec2::splat(0.5), DVec2::splat(0.75)]);
-    let zoomed = svg(&view);
+    plot.picture.zoom = Some([DVec2::splat(0.5), DVec2::splat(0.75)]);
+    let zoomed = svg(&plot);
     assert!(part(&zoomed, "segments").contains("M8 216l208-208"), "{zoomed}");
-    view.picture.edges = false;
-    assert!(!svg(&view).contains("segments"));
+    plot.picture.edges = false;
+    assert!(!svg(&plot).contains("segments"));
 }
 
 #[test]
 fn a_histogram_marks_the_bounds() {
     let mesh = squares(2);
-    let mut view = MeshView::new(&mesh);
-    view.picture.bounds_deg = [43.9, 92.0];
-    assert!(!svg(&view).contains("92°"));
-    view.picture.histogram = true;
-    let found = svg(&view);
+    let mut plot = Plot::new(&mesh);
+    plot.picture.bounds_deg = [43.9, 92.0];
+    assert!(!svg(&plot).contains("92°"));
+    plot.picture.histogram = true;
+    let found = svg(&plot);
     for label in [">43.9°<", ">92°<", ">60°<", "angles, square root scale"] {
         assert!(found.contains(label), "{label}");
     }
@@ -196,7 +190,7 @@ fn pictures_that_make_no_sense_are_refused() {
     let mesh = squares(2);
     for bounds_deg in [[-1.0, 90.0], [61.0, 90.0], [30.0, 59.0], [30.0, 181.0], [f64::NAN, 90.0]] {
         let error = refused(&mesh, |picture| picture.bounds_deg = bounds_deg);
-        assert!(matches!(error, WriteError::Bounds { .. }), "{error:?}");
+        assert!(matches!(error, PlotError::Bounds { .. }), "{error:?}");
     }
     for (min, max, words) in [
         ([0.0, 0.0], [f64::INFINITY, 1.0], "is not finite"),
@@ -207,20 +201,20 @@ fn pictures_that_make_no_sense_are_refused() {
         ([0.0, -9.0], [3.0, -1.0], "lies beside the mesh"),
     ] {
         let error = refused(&mesh, |picture| picture.zoom = Some([DVec2::from(min), DVec2::from(max)]));
-        assert!(matches!(error, WriteError::Zoom { .. }), "{error:?}");
+        assert!(matches!(error, PlotError::Zoom { .. }), "{error:?}");
         assert!(error.to_string().contains(words), "{error}");
     }
     let error = refused(&mesh, |picture| picture.colour_by = ColourBy::Region);
-    assert!(matches!(error, WriteError::NoRegions { .. }), "{error:?}");
+    assert!(matches!(error, PlotError::NoRegions), "{error:?}");
     for (of_triangle, words) in [
         (vec![0; 7], "7 groups of triangles instead of 8"),
         (vec![0, 0, 0, 1, 0, 0, 0, 0], "triangle 3 refers to number 1 of 1"),
     ] {
         let classes = vec![OverlayClass { label: String::new(), colour: Rgb([0; 3]) }];
         let groups = Groups { title: String::new(), classes, of_triangle };
-        let mut view = MeshView::new(&mesh);
-        view.picture.colour_by = ColourBy::Groups(&groups);
-        let error = write_mesh_to(&mut Vec::new(), MeshFormat::Svg, &view, "s").unwrap_err();
+        let mut plot = Plot::new(&mesh);
+        plot.picture.colour_by = ColourBy::Groups(&groups);
+        let error = plot.write_svg(&mut Vec::new()).unwrap_err();
         assert!(error.to_string().contains(words), "{error}");
     }
 }
@@ -229,9 +223,15 @@ fn pictures_that_make_no_sense_are_refused() {
 mod painted {
     use super::*;
 
+    fn bytes(plot: &Plot<'_>) -> Vec<u8> {
+        let mut out = Vec::new();
+        plot.write_png(&mut out).unwrap();
+        out
+    }
+
     /// Width, height, and three bytes to a pixel.
-    fn decoded(view: &MeshView<'_>) -> (usize, usize, Vec<[u8; 3]>) {
-        let png = bytes(MeshFormat::Png, view);
+    fn decoded(plot: &Plot<'_>) -> (usize, usize, Vec<[u8; 3]>) {
+        let png = bytes(plot);
         let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap();
         let mut data = vec![0; reader.output_buffer_size().unwrap()];
         let info = reader.next_frame(&mut data).unwrap();
@@ -241,8 +241,8 @@ mod painted {
     }
 
     /// The width and height that the SVG of the same picture says, rounded up.
-    fn size_of_svg(view: &MeshView<'_>) -> (usize, usize) {
-        let svg = svg(view);
+    fn size_of_svg(plot: &Plot<'_>) -> (usize, usize) {
+        let svg = svg(plot);
         let number = |name: &str| {
             let (_, rest) = svg.split_once(&format!(" {name}=\"")).unwrap();
             rest.split_once('"').unwrap().0.parse::<f64>().unwrap().ceil() as usize
@@ -262,11 +262,11 @@ mod painted {
         };
         // Large enough to be painted in several strips.
         for size_px in [100.0, 900.0] {
-            let mut view = MeshView::new(&mesh);
-            view.picture.size_px = size_px;
-            view.picture.colour_by = ColourBy::Groups(&groups);
-            let (width, height, pixels) = decoded(&view);
-            assert_eq!((width, height), size_of_svg(&view));
+            let mut plot = Plot::new(&mesh);
+            plot.picture.size_px = size_px;
+            plot.picture.colour_by = ColourBy::Groups(&groups);
+            let (width, height, pixels) = decoded(&plot);
+            assert_eq!((width, height), size_of_svg(&plot));
             let at = |x: f64, y: f64| {
                 let [x, y] = [12.0 + x / 2.0 * size_px, 12.0 + (2.0 - y) / 2.0 * size_px];
                 pixels[y as usize * width + x as usize]
@@ -286,12 +286,12 @@ mod painted {
     #[test]
     fn neighbours_leave_no_seam_and_the_box_is_all_there_is() {
         let mesh = squares(40);
-        let mut view = MeshView::new(&mesh);
-        view.picture.size_px = 133.0;
-        view.picture.edges = false;
-        view.picture.bounds_deg = [50.0, 90.0];
-        view.picture.zoom = Some([DVec2::splat(3.3), DVec2::splat(31.7)]);
-        let (width, _, pixels) = decoded(&view);
+        let mut plot = Plot::new(&mesh);
+        plot.picture.size_px = 133.0;
+        plot.picture.edges = false;
+        plot.picture.bounds_deg = [50.0, 90.0];
+        plot.picture.zoom = Some([DVec2::splat(3.3), DVec2::splat(31.7)]);
+        let (width, _, pixels) = decoded(&plot);
         let red = [0xe0, 0x1e, 0x37];
         for (i, pixel) in pixels.iter().enumerate() {
             let [x, y] = [i % width, i / width];
@@ -312,27 +312,27 @@ mod painted {
         };
         for scale in [f64::MAX, 1e-300, f64::from_bits(1), 0.0] {
             let mesh = triangle(scale);
-            let mut view = MeshView::new(&mesh).with_input_indices(&[Some(0), None, None]);
-            view.picture.size_px = 50.0;
-            view.picture.histogram = true;
-            let (width, height, _) = decoded(&view);
-            assert_eq!((width, height), size_of_svg(&view), "{scale}");
+            let mut plot = Plot::new(&mesh).with_input_indices(&[Some(0), None, None]);
+            plot.picture.size_px = 50.0;
+            plot.picture.histogram = true;
+            let (width, height, _) = decoded(&plot);
+            assert_eq!((width, height), size_of_svg(&plot), "{scale}");
         }
         let empty = TriMesh::default();
-        assert_eq!(decoded(&MeshView::new(&empty)).0, 36);
-        let mut view = MeshView::new(&empty);
-        view.picture.size_px = f64::NAN;
-        decoded(&view);
+        assert_eq!(decoded(&Plot::new(&empty)).0, 36);
+        let mut plot = Plot::new(&empty);
+        plot.picture.size_px = f64::NAN;
+        decoded(&plot);
     }
 
     #[test]
     fn the_same_picture_is_the_same_bytes() {
         let mesh = squares(9);
-        let mut view = MeshView::new(&mesh);
-        view.picture.histogram = true;
-        view.picture.size_px = 300.0;
-        let png = bytes(MeshFormat::Png, &view);
-        assert_eq!(png, bytes(MeshFormat::Png, &view));
+        let mut plot = Plot::new(&mesh);
+        plot.picture.histogram = true;
+        plot.picture.size_px = 300.0;
+        let png = bytes(&plot);
+        assert_eq!(png, bytes(&plot));
         assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
     }
 }

@@ -1,14 +1,14 @@
 //! What a picture says of the triangles in view: their colours, and the angles of
 //! all of them.
 
-use crate::angles::angles_deg;
 use crate::canvas::Place;
 use crate::colour::{BEYOND, Rgb, palette};
 use crate::frame::Frame;
 use crate::histogram::Histogram;
 use crate::picture::ColourBy;
-use crate::view::MeshView;
+use crate::plot::Plot;
 use hexdel_geom::TriangleId;
+use hexdel_geom::quality::unsigned_angles_deg;
 use std::cmp::Reverse;
 
 /// Colours that the scale is cut into; steps are below what the eye tells apart.
@@ -46,9 +46,9 @@ pub(crate) struct Survey {
 }
 
 impl Survey {
-    pub(crate) fn new(view: &MeshView<'_>, frame: &Frame) -> Self {
-        let regions = regions(view);
-        let colours = colours(view.picture.colour_by, regions.len());
+    pub(crate) fn new(plot: &Plot<'_>, frame: &Frame) -> Self {
+        let regions = regions(plot);
+        let colours = colours(plot.picture.colour_by, regions.len());
         let mut survey = Self {
             looks: Vec::new(),
             counts: vec![0; colours.len()],
@@ -58,13 +58,13 @@ impl Survey {
             regions,
         };
         let mut places = Vec::new();
-        for triangle in 0..view.mesh.triangles.len() {
-            let corners = view.mesh.corners(TriangleId::new(triangle));
+        for triangle in 0..plot.mesh.triangles.len() {
+            let corners = plot.mesh.corners(TriangleId::new(triangle));
             if !frame.shows(&corners) {
                 continue;
             }
-            let angles = angles_deg(corners);
-            let shade = survey.shade(view, triangle, angles);
+            let angles = unsigned_angles_deg(corners);
+            let shade = survey.shade(plot, triangle, angles);
             frame.polygon(&corners, &mut places);
             let size = Reverse(size_class(&places));
             survey.looks.push(Look { size, shade, triangle: triangle as u32 });
@@ -84,14 +84,14 @@ impl Survey {
         self.counts[BEYOND_SHADE as usize]
     }
 
-    fn shade(&self, view: &MeshView<'_>, triangle: usize, angles: [f64; 3]) -> u32 {
-        let [low, high] = view.picture.bounds_deg;
+    fn shade(&self, plot: &Plot<'_>, triangle: usize, angles: [f64; 3]) -> u32 {
+        let [low, high] = plot.picture.bounds_deg;
         let fold = |f: fn(f64, f64) -> f64| f(f(angles[0], angles[1]), angles[2]);
-        match view.picture.colour_by {
+        match plot.picture.colour_by {
             ColourBy::SmallestAngle => on_scale(fold(f64::min), low),
             ColourBy::LargestAngle => on_scale(fold(f64::max), high),
             ColourBy::Region => {
-                let region = view.regions.map_or(0.0, |regions| regions[triangle]);
+                let region = plot.regions.map_or(0.0, |regions| regions[triangle]);
                 self.regions.partition_point(|r| r.total_cmp(&region).is_lt()) as u32
             }
             ColourBy::Groups(groups) => groups.of_triangle[triangle],
@@ -110,11 +110,11 @@ fn on_scale(angle: f64, bound: f64) -> u32 {
 }
 
 /// The attributes of all regions in order, if colours are to tell them apart.
-fn regions(view: &MeshView<'_>) -> Vec<f64> {
-    if view.picture.colour_by != ColourBy::Region {
+fn regions(plot: &Plot<'_>) -> Vec<f64> {
+    if plot.picture.colour_by != ColourBy::Region {
         return Vec::new();
     }
-    let mut regions = view.regions.unwrap_or_default().to_vec();
+    let mut regions = plot.regions.unwrap_or_default().to_vec();
     regions.sort_unstable_by(f64::total_cmp);
     regions.dedup_by(|a, b| a.total_cmp(b).is_eq());
     regions
@@ -180,15 +180,15 @@ mod tests {
         let cells = [0, 1, 3, 4].into_iter();
         let halves = cells.flat_map(|i| [[i, i + 1, i + 4], [i, i + 4, i + 3]]);
         let mesh = TriMesh { vertices, triangles: halves.map(|t| t.map(VertexId::new)).collect() };
-        let mut view = MeshView::new(&mesh);
+        let mut plot = Plot::new(&mesh);
         for (zoom, triangles) in [
             (None, 8),
             (Some([DVec2::ZERO, DVec2::ONE]), 2),
             (Some([DVec2::new(0.6, 0.1), DVec2::new(0.9, 0.4)]), 1),
             (Some([DVec2::splat(-9.0), DVec2::splat(9.0)]), 8),
         ] {
-            view.picture.zoom = zoom;
-            let survey = Survey::new(&view, &Frame::new(&view, 1000.0));
+            plot.picture.zoom = zoom;
+            let survey = Survey::new(&plot, &Frame::new(&plot, 1000.0));
             assert_eq!(survey.looks.len(), triangles);
             assert_eq!(survey.counts.iter().sum::<usize>(), triangles);
             assert_eq!(survey.histogram.total(), 3 * triangles as u64);

@@ -9,8 +9,8 @@
 use crate::canvas::{Anchor, Canvas, Label, Place, Style};
 use crate::colour::{INK, Rgb};
 use crate::glyphs;
+use crate::plot::Plot;
 use crate::scene::Scene;
-use crate::view::MeshView;
 use std::io::{self, Write};
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
@@ -24,8 +24,8 @@ const SAMPLES: u32 = 4;
 const STRIP: u32 = 1 << 18;
 
 /// Writes the picture of a mesh.
-pub(crate) fn write_png(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
-    let scene = Scene::new(view, LARGEST);
+pub(crate) fn write_png(out: &mut dyn Write, plot: &Plot<'_>) -> io::Result<()> {
+    let scene = Scene::new(plot, LARGEST);
     let [width, height] = scene.size().map(|s| s.ceil() as u32);
     let mut encoder = png::Encoder::new(out, width, height);
     encoder.set_color(png::ColorType::Rgb);

@@ -5,17 +5,17 @@
 //! viewers open.
 
 use crate::canvas::{Anchor, Canvas, Label, Place, Style};
+use crate::plot::Plot;
 use crate::scene::Scene;
 use crate::text::TextWriter;
-use crate::view::MeshView;
 use std::io::{self, Write};
 
 /// The largest drawing, pixels.
 const LARGEST: f64 = 100_000.0;
 
 /// Writes the picture of a mesh.
-pub(crate) fn write_svg(out: &mut dyn Write, view: &MeshView<'_>) -> io::Result<()> {
-    let scene = Scene::new(view, LARGEST);
+pub(crate) fn write_svg(out: &mut dyn Write, plot: &Plot<'_>) -> io::Result<()> {
+    let scene = Scene::new(plot, LARGEST);
     let [width, height] = scene.size();
     let mut text = TextWriter::new(out);
     text.text("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"");

@@ -1,8 +1,8 @@
 //! What a picture of a mesh shows: options, colourings, and what is drawn over it.
 
 use crate::colour::Rgb;
-use crate::error::WriteError;
-use crate::view::MeshView;
+use crate::error::PlotError;
+use crate::plot::Plot;
 use hexdel_geom::DVec2;
 
 /// Options of a picture.
@@ -10,7 +10,7 @@ use hexdel_geom::DVec2;
 /// # Examples
 ///
 /// ```
-/// use hexdel_io::{ColourBy, Picture};
+/// use hexdel_plot::{ColourBy, Picture};
 ///
 /// let mut picture = Picture::default();
 /// picture.size_px = 400.0;
@@ -35,7 +35,7 @@ pub struct Picture<'a> {
     pub fill_triangles: bool,
     /// Whether edges are drawn, those with markers heavier than others.
     pub edges: bool,
-    /// Whether input points are drawn, as far as the mesh view names them.
+    /// Whether input points are drawn, as far as the plot names them.
     pub input_points: bool,
     /// Whether the legend has a histogram of the angles.
     pub histogram: bool,
@@ -56,7 +56,7 @@ pub enum ColourBy<'a> {
     SmallestAngle,
     /// The largest angle, from 60 degrees to the larger bound.
     LargestAngle,
-    /// The region, of a mesh view that [has them](MeshView::with_regions).
+    /// The region, of a plot that [has them](Plot::with_regions).
     Region,
     /// Groups of any meaning.
     Groups(&'a Groups),
@@ -121,26 +121,25 @@ pub struct Polygon {
     pub level: u32,
 }
 
-/// Checks what pictures rely on, beyond what every format does.
-pub(crate) fn check(view: &MeshView<'_>, file: &str) -> Result<(), WriteError> {
-    let picture = &view.picture;
-    let triangles = view.mesh.triangles.len();
+/// Checks what a picture relies on, beyond its mesh.
+pub(crate) fn check(plot: &Plot<'_>) -> Result<(), PlotError> {
+    let picture = &plot.picture;
     let [low, high] = picture.bounds_deg;
     if !(0.0..=60.0).contains(&low) || !(60.0..=180.0).contains(&high) {
-        return Err(WriteError::Bounds { file: file.to_owned(), low, high });
+        return Err(PlotError::Bounds { low, high });
     }
     if let Some(zoom) = picture.zoom {
-        check_zoom(zoom, &view.mesh.vertices, file)?;
+        check_zoom(zoom, &plot.mesh.vertices)?;
     }
     match picture.colour_by {
-        ColourBy::Region if view.regions.is_none() => Err(WriteError::NoRegions { file: file.to_owned() })?,
-        ColourBy::Groups(groups) => check_groups(groups, triangles, file)?,
+        ColourBy::Region if plot.regions.is_none() => Err(PlotError::NoRegions)?,
+        ColourBy::Groups(groups) => check_groups(groups, plot.mesh.triangles.len())?,
         _ => {}
     }
-    picture.overlay.map_or(Ok(()), |overlay| check_overlay(overlay, file))
+    picture.overlay.map_or(Ok(()), check_overlay)
 }
 
-fn check_zoom([min, max]: [DVec2; 2], vertices: &[DVec2], file: &str) -> Result<(), WriteError> {
+fn check_zoom([min, max]: [DVec2; 2], vertices: &[DVec2]) -> Result<(), PlotError> {
     let fault = if !(min.is_finite() && max.is_finite()) {
         "is not finite"
     } else if !(min.x < max.x && min.y < max.y) {
@@ -156,47 +155,31 @@ fn check_zoom([min, max]: [DVec2; 2], vertices: &[DVec2], file: &str) -> Result<
         }
         "lies beside the mesh"
     };
-    Err(WriteError::Zoom { file: file.to_owned(), min, max, fault })
+    Err(PlotError::Zoom { min, max, fault })
 }
 
-fn check_groups(groups: &Groups, triangles: usize, file: &str) -> Result<(), WriteError> {
+fn check_groups(groups: &Groups, triangles: usize) -> Result<(), PlotError> {
     let (found, count) = (groups.of_triangle.len(), groups.classes.len());
     if found != triangles {
-        let (file, array) = (file.to_owned(), "groups of triangles");
-        return Err(WriteError::Length { file, array, expected: triangles, found });
+        return Err(PlotError::Length { array: "groups of triangles", expected: triangles, found });
     }
     match groups.of_triangle.iter().position(|&class| class as usize >= count) {
         None => Ok(()),
-        Some(index) => Err(WriteError::IndexOutOfRange {
-            file: file.to_owned(),
-            item: "triangle",
-            index,
-            target: groups.of_triangle[index] as usize,
-            count,
-        }),
+        Some(index) => {
+            let target = groups.of_triangle[index] as usize;
+            Err(PlotError::IndexOutOfRange { item: "triangle", index, target, count })
+        }
     }
 }
 
-fn check_overlay(overlay: &Overlay, file: &str) -> Result<(), WriteError> {
-    let count = overlay.classes.len();
+fn check_overlay(overlay: &Overlay) -> Result<(), PlotError> {
+    let (item, count) = ("polygon", overlay.classes.len());
     for (index, polygon) in overlay.polygons.iter().enumerate() {
         if polygon.class >= count {
-            return Err(WriteError::IndexOutOfRange {
-                file: file.to_owned(),
-                item: "polygon",
-                index,
-                target: polygon.class,
-                count,
-            });
+            return Err(PlotError::IndexOutOfRange { item, index, target: polygon.class, count });
         }
         if let Some(p) = polygon.corners.iter().find(|p| !p.is_finite()) {
-            return Err(WriteError::NonFinite {
-                file: file.to_owned(),
-                item: "polygon",
-                index,
-                x: p.x,
-                y: p.y,
-            });
+            return Err(PlotError::NonFinite { item, index, x: p.x, y: p.y });
         }
     }
     Ok(())
