@@ -21,19 +21,24 @@
 //! [`triangulate_pslg`] meshes PSLGs of points and segments, with holes and
 //! regions, at 30 to 90 degrees along the segments.
 //!
-//! [`Mesher`] has the options. This crate holds no algorithm: the layers below
-//! it can be used on their own.
+//! [`Mesher`] has the options. This crate holds no algorithm. It has the types of its signatures, and the modules
 //!
-//! | crate | what |
+//! | module | what |
 //! |---|---|
 //! | [`geom`] | points, meshes, exact predicates, the certificate |
-//! | [`grid`] | the adaptive hexagon grid |
-//! | [`classify`] | classes of hexagons, templates, the dual mesh |
-//! | [`refine`] | the rules engine |
-//! | [`optimize`] | local optimisation to angle bounds |
 //! | [`pslg`] | segments, holes, regions and polygons |
 //! | [`io`] | formats of points and meshes, with the feature `io` |
 //! | [`plot`] | pictures of meshes, with the feature `plot` |
+//!
+//! The crates below can be used on their own:
+//!
+//! | crate | what |
+//! |---|---|
+//! | [`hexdel_grid`] | the adaptive hexagon grid |
+//! | [`hexdel_classify`] | classes of hexagons, templates, the dual mesh |
+//! | [`hexdel_refine`] | the rules engine |
+//! | [`hexdel_grow`] | meshes that grow out of the Delaunay triangulation |
+//! | [`hexdel_optimize`] | local optimisation to angle bounds |
 //!
 //! | feature | what | on by default |
 //! |---|---|---|
@@ -45,7 +50,7 @@
 //! Without features this is a mesher alone, and compiles for `wasm32-unknown-unknown`.
 
 /// The examples of the README, so that they stay true.
-#[cfg(all(doctest, feature = "io"))]
+#[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
@@ -74,16 +79,12 @@ mod start;
 pub mod triangulation;
 mod workers;
 
-pub use hexdel_classify as classify;
 pub use hexdel_geom as geom;
-pub use hexdel_grid as grid;
 #[cfg(feature = "io")]
 pub use hexdel_io as io;
-pub use hexdel_optimize as optimize;
 #[cfg(feature = "plot")]
 pub use hexdel_plot as plot;
 pub use hexdel_pslg as pslg;
-pub use hexdel_refine as refine;
 
 pub use dual_edges::MOST_DUAL_EDGE;
 pub use error::Error;
@@ -93,11 +94,16 @@ pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry, Warning
 pub use graph::result::PslgTriangulation;
 pub use graph::warning::Warning;
 pub use graph::{Domain, Overlaps, triangulate_pslg};
+pub use hexdel_classify::hexagons::Hexagon;
+pub use hexdel_classify::{Class, DualError};
 pub use hexdel_geom::{
-    AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, TriMesh, TriangleId, Unwatched, VertexId,
+    AngleBounds, Certificate, DVec2, Monitor, Phase, Pslg, Raster, TriMesh, TriangleId, Unwatched, VertexId,
 };
-pub use hexdel_optimize::Effort;
+pub use hexdel_grid::{Address, Hex};
+pub use hexdel_optimize::live::{Delta, LiveError, StateError};
+pub use hexdel_optimize::{Effort, OptimizeError, SIZE_TOLERANCE, Sizing, triangle_fits};
 pub use hexdel_pslg::SegmentMethod;
+pub use hexdel_refine::RefineError;
 pub use mesher::{Mesher, Method, Start, triangulate};
 pub use session::{
     AnySession, Outcome, PointId, Session, SessionCheck, SessionError, SessionMesh, TemplateSession,

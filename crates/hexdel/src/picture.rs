@@ -125,10 +125,9 @@ impl Triangulation {
 /// Hexagons as a layer of a picture, coloured by class and level.
 ///
 /// ```
-/// use hexdel::classify::hexagons::hexagons;
-/// use hexdel::classify::Domain;
-/// use hexdel::grid::{Address, Grid, Hex, Lattice};
-/// # use hexdel::DVec2;
+/// use hexdel::{Address, DVec2, Hex};
+/// use hexdel_classify::{Domain, hexagons::hexagons};
+/// use hexdel_grid::{Grid, Lattice};
 ///
 /// let mut grid = Grid::new(Lattice::new(DVec2::ZERO, 1.0));
 /// grid.subdivide(Address::new(0, Hex::ORIGIN));

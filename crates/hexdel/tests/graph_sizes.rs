@@ -7,10 +7,11 @@
 mod common;
 
 use common::graph;
-use hexdel::geom::Raster;
-use hexdel::optimize::triangle_fits;
 use hexdel::pslg::{PslgError, Reason};
-use hexdel::{DVec2, Domain, Error, Mesher, Method, Pslg, PslgTriangulation, SegmentMethod, Size, SizeError};
+use hexdel::{
+    DVec2, Domain, Error, Mesher, Method, Pslg, PslgTriangulation, Raster, SegmentMethod, Size, SizeError,
+    triangle_fits,
+};
 
 /// The corners of the rectangle around a PSLG.
 fn bounds(graph: &Pslg) -> [DVec2; 2] {

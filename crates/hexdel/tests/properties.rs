@@ -11,9 +11,9 @@ mod common;
 
 use common::{bits, hold};
 use hexdel::generate::{Kind, generate};
-use hexdel::grid::Lattice;
-use hexdel::refine::{Refiner, RuleSet};
 use hexdel::{DVec2, Error, Mesher, Method, Triangulation, Unwatched};
+use hexdel_grid::Lattice;
+use hexdel_refine::{Refiner, RuleSet};
 use proptest::prelude::*;
 
 fn config() -> ProptestConfig {

@@ -2,9 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
-use hexdel::geom::Raster;
-use hexdel::optimize::triangle_fits;
-use hexdel::{DVec2, Error, Mesher, Method, Size, SizeError, generate};
+use hexdel::{DVec2, Error, Mesher, Method, Raster, Size, SizeError, generate, triangle_fits};
 
 fn sizes() -> Vec<(&'static str, Size)> {
     let raster = Raster {

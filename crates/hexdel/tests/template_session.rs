@@ -8,10 +8,9 @@
 mod common;
 
 use common::{Copy, Tally, refused};
-use hexdel::optimize::triangle_fits;
 use hexdel::{
     DVec2, Mesher, Method, Outcome, PointId, SessionError, Size, SizeError, TemplateSession, VertexId,
-    generate,
+    generate, triangle_fits,
 };
 use proptest::prelude::*;
 

@@ -7,16 +7,16 @@
 
 use super::{Files, gallery};
 use crate::prove;
-use hexdel::classify::hexagons::hexagons;
-use hexdel::classify::{Domain, Occupant, Relocation, extract};
 use hexdel::geom::Pslg;
 use hexdel::geom::{CertifyOptions, certify};
-use hexdel::grid::{Address, Direction, Grid, Hex, Lattice};
 use hexdel::io::{MarkedEdge, MeshFormat, MeshView, read_points, write_mesh_to};
 use hexdel::plot::{Overlay, Picture};
 use hexdel::pslg::{Extent, Options, SegmentMethod, validate};
-use hexdel::refine::{Refiner, RuleSet};
 use hexdel::{AngleBounds, DVec2, Mesher, Method, TriMesh, Unwatched};
+use hexdel_classify::hexagons::hexagons;
+use hexdel_classify::{Domain, Occupant, Relocation, extract};
+use hexdel_grid::{Address, Direction, Grid, Hex, Lattice};
+use hexdel_refine::{Refiner, RuleSet};
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::path::Path;

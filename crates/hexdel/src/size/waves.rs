@@ -73,7 +73,7 @@ impl Size {
     /// cells have the shortest length of the rule. Cells without a depth ask for nothing.
     ///
     /// ```
-    /// use hexdel::{DVec2, Size, WaveRule, geom::Raster, optimize::Sizing};
+    /// use hexdel::{DVec2, Raster, Size, Sizing, WaveRule};
     /// let depths = Raster { columns: 2, rows: 1, low: DVec2::ZERO, cell: 1e5, values: vec![Some(-5.0), Some(100.0)] };
     /// let size = Size::unlimited().and_depths(&depths, &WaveRule::new(3600.0, 30.0, [200.0, 5e3])?)?;
     /// assert_eq!(size.at(DVec2::ZERO), 200.0);

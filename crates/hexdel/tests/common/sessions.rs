@@ -1,6 +1,6 @@
 //! Sessions: a copy kept by deltas, and calls that are refused.
 
-use hexdel::optimize::live::Delta;
+use hexdel::Delta;
 use hexdel::{DVec2, Outcome, Session, SessionError, SessionMesh, TemplateSession, VertexId};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
