@@ -120,6 +120,19 @@ fn run(
     size: Option<&dyn Sizing>,
     monitor: &dyn Monitor,
 ) -> Result<PslgMesh, PslgError> {
+    refuse(input, options)?;
+    if options.method == SegmentMethod::Paper {
+        return paper::mesh(input, options, size, monitor);
+    }
+    let deadline = Deadline::after(options.budget);
+    let mesher = Mesher::new(input, options, size, &deadline);
+    mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
+    refuse_too_many(input, mesher.carving.as_ref(), &mesher.lattice, options.max_triangles)?;
+    mesher.mesh(monitor)
+}
+
+/// An error if the options ask for what no method keeps, or the input for what it must be given first.
+fn refuse(input: &Validated, options: &Options) -> Result<(), PslgError> {
     if !input.pslg.polygons.is_empty() {
         return Err(PslgError::NotSeeded);
     }
@@ -135,86 +148,11 @@ fn run(
     if asked.min_deg() > kept.min_deg() || asked.max_deg() < least_upper {
         return Err(PslgError::BoundsBeyondMethod { asked, kept });
     }
-    if options.extent == Extent::Hull {
-        refuse_flat(input)?;
-    }
-    if options.method == SegmentMethod::Paper {
-        return paper::mesh(input, options, size, monitor);
-    }
-    let deadline = Deadline::after(options.budget);
-    let mesher = Mesher::new(input, options, size, &deadline);
-    mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
-    refuse_too_many(input, mesher.carving.as_ref(), &mesher.lattice, options.max_triangles)?;
-    let mut wishes = Wishes { demands: Vec::new(), lattice: mesher.lattice };
-    let (mut retries, mut vain) = (0, 0);
-    let first = Timed::new(monitor, &deadline, false);
-    // What is too near for coordinates, or takes too many triangles, is found on the grid, whatever comes next.
-    let refined = mesher.refined(&wishes, &first);
-    let grown = if refined.is_ok() { mesher.grown(monitor)? } else { None };
-    if let Some(net) = grown.as_ref().filter(|net| mesher.left(net).score() == 0) {
-        let made = mesher.finished(net.clone(), 0, monitor)?;
-        if made.holds() {
-            return Ok(made);
-        }
-    }
-    let mut best = match refined.and_then(|refiner| mesher.embedded(refiner, &first)) {
-        Ok(net) => {
-            deadline.note_first_mesh();
-            mesher.improved(net, monitor)?
-        }
-        Err(PslgError::Cancelled(_)) if first.has_stopped() => {
-            let net = grown.map_or_else(|| mesher.rough(monitor), Ok)?;
-            return mesher.finished(net, 0, monitor);
-        }
-        Err(error) => return Err(error),
-    };
-    let mut left = mesher.left(&best);
-    while !left.elsewhere.is_empty() && retries < options.retries && !deadline.is_over() {
-        // Smaller triangles next time are for what this does not mend.
-        if let Some(mended) =
-            mesher.divided(&best, monitor)?.filter(|net| mesher.left(net).elsewhere.is_empty())
-        {
-            best = mended;
-            break;
-        }
-        let ringed = mesher.note(&best, &left.elsewhere, &mut wishes);
-        if ringed > FEW_BESIDE_RINGS {
-            break;
-        }
-        let again = Timed::new(monitor, &deadline, true);
-        let attempt = mesher.refined(&wishes, &again).and_then(|refiner| mesher.embedded(refiner, &again));
-        let net = match attempt.and_then(|net| mesher.improved(net, monitor)) {
-            Ok(net) => net,
-            Err(PslgError::Cancelled(c)) if !again.has_stopped() => return Err(c.into()),
-            // There is no finer mesh, or no time for one; the one that was to become
-            // better stays.
-            Err(_) => break,
-        };
-        retries += 1;
-        let now = mesher.left(&net);
-        // Of triangles that are only too large others are left each time, until all around is fine enough.
-        let large = now.elsewhere.iter().all(|&t| !mesher.judge().is_out(&net, t));
-        if now.score() < left.score() {
-            (best, left) = (net, now);
-        } else if (ringed > 0 || large) && vain < VAIN {
-            if large {
-                mesher.note(&net, &now.elsewhere, &mut wishes);
-            }
-            vain += 1;
-        } else {
-            // What one more level has not helped is not for the next to help.
-            break;
-        }
-    }
-    check(monitor)?;
-    best = mesher.divided(&best, monitor)?.unwrap_or(best);
-    left = mesher.left(&best);
-    let best = grown.filter(|grown| mesher.left(grown).score() < left.score()).unwrap_or(best);
-    mesher.finished(mesher.thinned(best, monitor)?, retries, monitor)
+    if options.extent == Extent::Hull { refuse_flat(input) } else { Ok(()) }
 }
 
-/// What is to be different the next time.
-struct Wishes {
+/// The grid of an attempt.
+struct Plan {
     demands: Vec<Demand>,
     lattice: Lattice,
 }
@@ -235,14 +173,14 @@ const FEW_BESIDE_RINGS: usize = 16;
 const BESIDE_RING: f64 = 4.0;
 
 /// Triangles that are not as they should be.
-struct Left {
+struct Faults {
     /// Beside a sector in which no mesh could keep the bounds.
     hopeless: usize,
     /// All others, those too large or too long included.
     elsewhere: Vec<u32>,
 }
 
-impl Left {
+impl Faults {
     /// What is hopeless counts less than anything else.
     fn score(&self) -> usize {
         self.elsewhere.len() * 1_000_000 + self.hopeless
@@ -308,6 +246,87 @@ impl<'a> Mesher<'a> {
         self.sectors.near(net.corners(t)).is_some_and(|(s, _)| s.is_hopeless())
     }
 
+    /// The mesh that grows, if it is as it should be; otherwise one out of a grid, made anew while that helps.
+    fn mesh(&self, monitor: &dyn Monitor) -> Result<PslgMesh, PslgError> {
+        let plan = Plan { demands: Vec::new(), lattice: self.lattice };
+        let first = Timed::new(monitor, self.deadline, false);
+        // What is too near for coordinates, or takes too many triangles, is found on the grid, whatever comes next.
+        let refined = self.refined(&plan, &first);
+        let grown = if refined.is_ok() { self.grown(monitor)? } else { None };
+        if let Some(net) = grown.as_ref().filter(|net| self.faults(net).score() == 0) {
+            let made = self.finished(net.clone(), 0, monitor)?;
+            if made.holds() {
+                return Ok(made);
+            }
+        }
+        let net = match refined.and_then(|refiner| self.embedded(refiner, &first)) {
+            Ok(net) => net,
+            Err(PslgError::Cancelled(_)) if first.has_stopped() => {
+                let net = grown.map_or_else(|| self.rough(monitor), Ok)?;
+                return self.finished(net, 0, monitor);
+            }
+            Err(error) => return Err(error),
+        };
+        self.deadline.note_first_mesh();
+        let (net, retries) = self.retried(self.improved(net, monitor)?, plan, monitor)?;
+        check(monitor)?;
+        let net = self.divided(&net, monitor)?.unwrap_or(net);
+        let score = self.faults(&net).score();
+        let best = grown.filter(|grown| self.faults(grown).score() < score).unwrap_or(net);
+        self.finished(self.thinned(best, monitor)?, retries, monitor)
+    }
+
+    /// The best mesh of several attempts, each on a grid that is finer where the one before has failed, and the
+    /// number of attempts after the first.
+    fn retried(
+        &self,
+        mut best: Net,
+        mut plan: Plan,
+        monitor: &dyn Monitor,
+    ) -> Result<(Net, u32), PslgError> {
+        let (mut retries, mut vain) = (0, 0);
+        let mut faults = self.faults(&best);
+        while !faults.elsewhere.is_empty() && retries < self.options.retries && !self.deadline.is_over() {
+            // Smaller triangles next time are for what this does not mend.
+            let mended = self.divided(&best, monitor)?;
+            if let Some(net) = mended.filter(|net| self.faults(net).elsewhere.is_empty()) {
+                return Ok((net, retries));
+            }
+            let ringed = self.note(&best, &faults.elsewhere, &mut plan);
+            if ringed > FEW_BESIDE_RINGS {
+                break;
+            }
+            let Some(net) = self.again(&plan, monitor)? else { break };
+            retries += 1;
+            let now = self.faults(&net);
+            // Of triangles that are only too large others are left each time, until all around is fine enough.
+            let large = now.elsewhere.iter().all(|&t| !self.judge().is_out(&net, t));
+            if now.score() < faults.score() {
+                (best, faults) = (net, now);
+            } else if (ringed > 0 || large) && vain < VAIN {
+                if large {
+                    self.note(&net, &now.elsewhere, &mut plan);
+                }
+                vain += 1;
+            } else {
+                // What one more level has not helped is not for the next to help.
+                break;
+            }
+        }
+        Ok((best, retries))
+    }
+
+    /// Another mesh out of a grid; none if there is no finer one, or no time for it.
+    fn again(&self, plan: &Plan, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
+        let timed = Timed::new(monitor, self.deadline, true);
+        let net = self.refined(plan, &timed).and_then(|refiner| self.embedded(refiner, &timed));
+        match net.and_then(|net| self.improved(net, monitor)) {
+            Ok(net) => Ok(Some(net)),
+            Err(PslgError::Cancelled(c)) if !timed.has_stopped() => Err(c.into()),
+            Err(_) => Ok(None),
+        }
+    }
+
     /// A mesh optimised and compacted.
     fn improved(&self, mut net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
         count_rings(&mut net);
@@ -318,7 +337,7 @@ impl<'a> Mesher<'a> {
     /// A mesh that no retry has brought within its bounds without the vertices that it can do without.
     fn thinned(&self, net: Net, monitor: &dyn Monitor) -> Result<Net, PslgError> {
         match self.options.compact {
-            Some(effort) if !self.left(&net).elsewhere.is_empty() && !self.deadline.is_over() => {
+            Some(effort) if !self.faults(&net).elsewhere.is_empty() && !self.deadline.is_over() => {
                 compact(net, &Kept { bounds_first: false, ..self.kept() }, effort, monitor)
             }
             _ => Ok(net),
@@ -333,15 +352,15 @@ impl<'a> Mesher<'a> {
         if self.limits.is_none() || self.options.near.max_deg() >= RIGHT_DEG {
             return Ok(better);
         }
-        let mut left = self.left(net);
-        while !left.elsewhere.is_empty() && !self.deadline.is_over() {
+        let mut faults = self.faults(net);
+        while !faults.elsewhere.is_empty() && !self.deadline.is_over() {
             let before = better.as_ref().unwrap_or(net).clone();
             let next = compact(before, &self.kept(), Effort::Repair, monitor)?;
-            let of_next = self.left(&next);
-            if of_next.score() >= left.score() {
+            let of_next = self.faults(&next);
+            if of_next.score() >= faults.score() {
                 break;
             }
-            (left, better) = (of_next, Some(next));
+            (faults, better) = (of_next, Some(next));
         }
         Ok(better)
     }
@@ -408,13 +427,13 @@ impl<'a> Mesher<'a> {
 
     /// Notes what would help triangles that are left: another lattice beside rings,
     /// smaller hexagons elsewhere. How many there are beside rings.
-    fn note(&self, net: &Net, left: &[u32], wishes: &mut Wishes) -> usize {
+    fn note(&self, net: &Net, left: &[u32], plan: &mut Plan) -> usize {
         let (ringed, others): (Vec<u32>, Vec<u32>) =
             left.iter().partition(|&&t| self.judge().is_out(net, t) && self.is_beside_ring(net.corners(t)));
-        wishes.demands.extend(others.into_iter().map(|t| demand_at(net, t)));
+        plan.demands.extend(others.into_iter().map(|t| demand_at(net, t)));
         if !ringed.is_empty() {
-            let lattice = wishes.lattice;
-            wishes.lattice = Lattice::new(lattice.origin(), SHRUNK * lattice.spacing(0));
+            let lattice = plan.lattice;
+            plan.lattice = Lattice::new(lattice.origin(), SHRUNK * lattice.spacing(0));
         }
         ringed.len()
     }
@@ -427,12 +446,12 @@ impl<'a> Mesher<'a> {
         self.scene.fans.iter().any(|fan| off(fan) <= BESIDE_RING * longest)
     }
 
-    fn left(&self, net: &Net) -> Left {
+    fn faults(&self, net: &Net) -> Faults {
         let bad: Vec<u32> = net.alive().filter(|&t| self.judge().is_out(net, t)).collect();
         let (hopeless, mut elsewhere): (Vec<u32>, Vec<u32>) =
             bad.iter().partition(|&&t| self.is_hopeless(net, t));
         elsewhere.extend(self.limits.iter().flat_map(|limits| limits.exceeded(net)));
-        Left { hopeless: hopeless.len(), elsewhere }
+        Faults { hopeless: hopeless.len(), elsewhere }
     }
 
     fn kept(&self) -> Kept<'_> {
@@ -484,7 +503,7 @@ impl<'a> Mesher<'a> {
     }
 
     /// A grid as fine as sites and pieces ask for.
-    fn refined(&self, wishes: &Wishes, monitor: &dyn Monitor) -> Result<Refiner, PslgError> {
+    fn refined(&self, plan: &Plan, monitor: &dyn Monitor) -> Result<Refiner, PslgError> {
         let spacing = |p: DVec2, is_seen: bool| {
             self.limits.as_ref().map_or(f64::INFINITY, |limits| limits.spacing_at(p, is_seen))
         };
@@ -492,12 +511,12 @@ impl<'a> Mesher<'a> {
             sites: self.sites(),
             pieces: &self.scene.pieces,
             input_of_site: &self.scene.input_of_site,
-            demands: &wishes.demands,
+            demands: &plan.demands,
             carving: self.carving.as_ref(),
             limit: self.limits.as_ref().map(|_| &spacing as &dyn Fn(DVec2, bool) -> f64),
             max_triangles: self.options.max_triangles,
         };
-        refine(wishes.lattice, &features, monitor)
+        refine(plan.lattice, &features, monitor)
     }
 
     /// A mesh with all sites and pieces in it, out of a grid.

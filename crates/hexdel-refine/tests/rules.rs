@@ -9,8 +9,11 @@ use hexdel_refine::{Rule, RuleSet, Situation, Start, coarse, extended, simple, t
 /// hole of a disc and some hexagons around it, and some occupied hexagons.
 fn situations() -> impl Iterator<Item = Situation> {
     (0..8000_u64).map(|seed| {
-        // A place of the window, by multiplication and its high bits.
-        let mixed = |i: u64| (seed * 64 + i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+        // Multiplied once they would be spread evenly, and hardly ever adjacent.
+        let mixed = |i: u64| {
+            let spread = (seed * 64 + i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            (spread ^ spread >> 32).wrapping_mul(0xd6e8_feb8_6659_fd93) >> 40
+        };
         let place = |i: u64| Hex::new((mixed(i) % 16) as i64 - 4, (mixed(i) / 16 % 16) as i64 - 4);
         let inside = |h: &Hex| (-4..12).contains(&h.q) && (-4..12).contains(&h.r);
         let disc = |i: u64| place(i).disc(((seed + i) % 4) as u32);
