@@ -278,12 +278,7 @@ impl<'a> Mesher<'a> {
 
     /// The best mesh of several attempts, each on a grid that is finer where the one before has failed, and the
     /// number of attempts after the first.
-    fn retried(
-        &self,
-        mut best: Net,
-        mut plan: Plan,
-        monitor: &dyn Monitor,
-    ) -> Result<(Net, u32), PslgError> {
+    fn retried(&self, mut best: Net, mut plan: Plan, monitor: &dyn Monitor) -> Result<(Net, u32), PslgError> {
         let (mut retries, mut vain) = (0, 0);
         let mut faults = self.faults(&best);
         while !faults.elsewhere.is_empty() && retries < self.options.retries && !self.deadline.is_over() {

@@ -46,6 +46,9 @@ impl Time {
     }
 }
 
+/// More runs, at the least effort that removes vertices, for the few triangles that are left of a mesh that has grown.
+const AGAIN: u64 = 3;
+
 /// How optimisation ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ended {
@@ -66,25 +69,47 @@ pub(crate) struct Work<'a> {
 impl Work<'_> {
     /// Optimises a mesh in place.
     ///
-    /// A start that must be `repaired` is brought within the bounds first: a mesh that has grown always, one of the
-    /// grid where time is limited, in half of it, so that the other half is left for a start that needs no repair.
+    /// Where time is limited, a start of the grid that must be repaired is brought within the bounds first, in half of
+    /// it, so that the other half is left for a start that needs no repair.
     pub(crate) fn optimize(&self, begun: &mut Begun, start: Start, time: &Time) -> Result<Ended, Error> {
-        let first = match start {
-            Start::Grown => Some(Effort::Repair),
-            Start::Coarse if time.budget.is_some() => Some(self.effort.min(Effort::Fast)),
-            _ => None,
-        };
-        if let Some(effort) = first {
-            let ended = self.run(begun, effort, time.share(2))?;
-            if !ended.reached || effort == self.effort {
+        if start == Start::Grown {
+            return self.optimize_grown(begun, time);
+        }
+        if start == Start::Coarse && time.budget.is_some() {
+            let first = self.effort.min(Effort::Fast);
+            let ended = self.run(begun, (first, 0), time.share(2))?;
+            if !ended.reached || first == self.effort {
                 return Ok(ended);
             }
         }
-        self.run(begun, self.effort, time.share(1))
+        self.run(begun, (self.effort, 0), time.share(1))
     }
 
-    fn run(&self, begun: &mut Begun, effort: Effort, budget: Option<Duration>) -> Result<Ended, Error> {
-        let options = Options::new(self.bounds, effort);
+    /// Brings a mesh that has grown within the bounds, then removes vertices, which makes room for what is still out of
+    /// bounds.
+    fn optimize_grown(&self, begun: &mut Begun, time: &Time) -> Result<Ended, Error> {
+        let mut ended = self.run(begun, (Effort::Repair, 0), time.share(2))?;
+        if ended.spent && !ended.reached || self.effort == Effort::Repair {
+            return Ok(ended);
+        }
+        ended = self.run(begun, (self.effort, 0), time.share(if ended.reached { 1 } else { 2 }))?;
+        for seed in 1..=AGAIN {
+            if ended.reached || ended.spent {
+                break;
+            }
+            ended = self.run(begun, (Effort::Fast, seed), time.share(2))?;
+        }
+        Ok(ended)
+    }
+
+    /// One run at an effort, with a seed.
+    fn run(
+        &self,
+        begun: &mut Begun,
+        (effort, seed): (Effort, u64),
+        budget: Option<Duration>,
+    ) -> Result<Ended, Error> {
+        let options = Options::new(self.bounds, effort).with_seed(seed);
         let options = budget.map_or(options, |budget| options.with_budget(budget));
         optimize_begun(begun, &options, self.size, self.monitor)
     }

@@ -17,7 +17,8 @@ use web_time::Instant;
 /// The largest lower bound, degrees, at which growth ends by itself; for larger ones the rest is for the optimiser.
 const GROWN_DEG: f64 = 43.0;
 
-/// The largest lower bound, degrees, at which it ends with few vertices however few points there are.
+/// The largest lower bound, degrees, at which it ends with few vertices however few points there are; the start for
+/// bounds that it does not reach.
 const EASY_DEG: f64 = 42.5;
 
 /// Of so many triangles one may be out of bounds after growth, for the mesh to be repaired.
@@ -205,7 +206,7 @@ impl Mesher {
         let input =
             hexdel_grow::Input { points: &points, segments: &segments, inside: true, ..Default::default() };
         let asked = bounds.min_deg();
-        let least = if asked <= GROWN_DEG { asked } else { self.before_repair() };
+        let least = if asked <= GROWN_DEG { asked } else { EASY_DEG };
         let options = hexdel_grow::Options::new(least).with_deadline(time.deadline());
         match grow(&input, &options, monitor) {
             // Growth that spent its limit leaves much, and made more than removals undo.
@@ -214,12 +215,6 @@ impl Mesher {
             Err(GrowError::Cancelled(c)) => Err(c.into()),
             Err(_) => Ok(None),
         }
-    }
-
-    /// The bound of a mesh that is to be repaired to a larger one.
-    fn before_repair(&self) -> f64 {
-        // At the least effort few vertices are removed: the less repair, the better.
-        if self.effort <= Effort::Fast { GROWN_DEG } else { EASY_DEG }
     }
 
     /// Whether a mesh of so many points within bounds is to grow.
