@@ -147,7 +147,7 @@ impl Mesher {
         monitor: &dyn Monitor,
     ) -> Result<Option<Begun>, Error> {
         match start {
-            Start::Grown => self.grown(input, bounds, time, monitor),
+            Start::Grown => grown(input, bounds, time, monitor),
             _ => self.refined(start, input.set, input.placement, monitor).map(Some),
         }
     }
@@ -188,39 +188,38 @@ impl Mesher {
         })
     }
 
-    /// A mesh that has grown out of points in a hexagon; none if it did not.
-    fn grown(
-        &self,
-        Input { set, placement, .. }: &Input<'_>,
-        bounds: AngleBounds,
-        time: &Time,
-        monitor: &dyn Monitor,
-    ) -> Result<Option<Begun>, Error> {
-        let sites = set.sites();
-        let began = Instant::now();
-        let patch = Patch { centre: placement.lattice.origin(), radius: placement.radius(sites) };
-        let count = sites.len() as u32;
-        let mut points = sites.to_vec();
-        points.extend(corners(patch.centre, patch.radius));
-        let segments: [[u32; 2]; 6] = std::array::from_fn(|i| [0, 1].map(|k| count + (i as u32 + k) % 6));
-        let input =
-            hexdel_grow::Input { points: &points, segments: &segments, inside: true, ..Default::default() };
-        let asked = bounds.min_deg();
-        let least = if asked <= GROWN_DEG { asked } else { EASY_DEG };
-        let options = hexdel_grow::Options::new(least).with_deadline(time.deadline());
-        match grow(&input, &options, monitor) {
-            // Growth that spent its limit leaves much, and made more than removals undo.
-            Ok(made) if made.left.len() > made.mesh.triangles.len() / TRIANGLES_PER_LEFT => Ok(None),
-            Ok(made) => Ok(begun(made, sites.len(), patch, began.elapsed())),
-            Err(GrowError::Cancelled(c)) => Err(c.into()),
-            Err(_) => Ok(None),
-        }
-    }
-
     /// Whether a mesh of so many points within bounds is to grow.
     pub(crate) fn is_for_growth(&self, points: usize, bounds: AngleBounds) -> bool {
         let easy = bounds.min_deg() <= EASY_DEG;
         self.size.is_none() && !self.without_coarsening && points > 1 && (easy || points >= MANY)
+    }
+}
+
+/// A mesh that has grown out of points in a hexagon; none if it did not.
+fn grown(
+    Input { set, placement, .. }: &Input<'_>,
+    bounds: AngleBounds,
+    time: &Time,
+    monitor: &dyn Monitor,
+) -> Result<Option<Begun>, Error> {
+    let sites = set.sites();
+    let began = Instant::now();
+    let patch = Patch { centre: placement.lattice.origin(), radius: placement.radius(sites) };
+    let count = sites.len() as u32;
+    let mut points = sites.to_vec();
+    points.extend(corners(patch.centre, patch.radius));
+    let segments: [[u32; 2]; 6] = std::array::from_fn(|i| [0, 1].map(|k| count + (i as u32 + k) % 6));
+    let input =
+        hexdel_grow::Input { points: &points, segments: &segments, inside: true, ..Default::default() };
+    let asked = bounds.min_deg();
+    let least = if asked <= GROWN_DEG { asked } else { EASY_DEG };
+    let options = hexdel_grow::Options::new(least).with_deadline(time.deadline());
+    match grow(&input, &options, monitor) {
+        // Growth that spent its limit leaves much, and made more than removals undo.
+        Ok(made) if made.left.len() > made.mesh.triangles.len() / TRIANGLES_PER_LEFT => Ok(None),
+        Ok(made) => Ok(begun(made, sites.len(), patch, began.elapsed())),
+        Err(GrowError::Cancelled(c)) => Err(c.into()),
+        Err(_) => Ok(None),
     }
 }
 
