@@ -176,3 +176,29 @@ impl Monitor for Again<'_> {
         self.monitor.cancelled()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::{Kind, generate};
+    use crate::mesher::{Mesher, Method};
+    use crate::placement::Placement;
+    use crate::start::Input;
+    use hexdel_geom::{PointSet, Unwatched};
+
+    /// Tighter bounds than the method promises, so that few points suffice for repair alone to fail.
+    #[test]
+    fn removals_settle_what_repair_leaves_of_a_grown_mesh() {
+        let points = generate(Kind::Uniform, 40, 10);
+        let set = PointSet::new(&points).unwrap();
+        let placement = Placement::around(&set, None, None, Method::Compact).unwrap();
+        let input = Input { points: &points, set: &set, placement: &placement };
+        let (bounds, time) = (AngleBounds::new(46.0, 90.0).unwrap(), Time::new(None));
+        let reached = [Effort::Repair, Effort::Fast].map(|effort| {
+            let begun = Mesher::new().begin(Start::Grown, &input, bounds, &time, &Unwatched).unwrap();
+            let work = Work { bounds, effort, size: None, monitor: &Unwatched };
+            work.optimize(&mut begun.expect("it grows"), Start::Grown, &time).unwrap().reached
+        });
+        assert_eq!(reached, [false, true]);
+    }
+}
