@@ -131,6 +131,7 @@ impl Mul for Double {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn keeps_what_doubles_lose() {
@@ -151,5 +152,35 @@ mod tests {
         let c = Double::HALF_SQRT_3;
         assert!((c * c - Double::from(0.75)).value().abs() < 1e-31);
         assert!((c.times(c.hi) + c.times(c.lo) - Double::from(0.75)).value().abs() < 1e-31);
+    }
+
+    /// The value of a sum of two integers.
+    fn integer(d: Double) -> i128 {
+        d.hi as i128 + d.lo as i128
+    }
+
+    proptest! {
+        #[test]
+        fn products_are_exact_at_any_scale(
+            a in 1u64 << 52..1 << 53,
+            b in 1u64 << 52..1 << 53,
+            scales in [-300..300, -300..300],
+        ) {
+            let [s, t] = scales.map(|k| 2f64.powi(k));
+            let p = Double::product(a as f64 * s, b as f64 * t);
+            let unscaled = Double { hi: p.hi / s / t, lo: p.lo / s / t };
+            prop_assert_eq!(integer(unscaled), i128::from(a) * i128::from(b));
+        }
+
+        /// Four units of these sums are below one half.
+        #[test]
+        fn sums_and_differences_are_exact_to_four_units(
+            hi in [1i128 << 52..1 << 53, 1i128 << 52..1 << 53],
+            lo in [-1i128 << 46..1 << 46, -1i128 << 46..1 << 46],
+        ) {
+            let [a, b] = [0, 1].map(|i| Double { hi: (hi[i] << 47) as f64, lo: lo[i] as f64 });
+            prop_assert_eq!(integer(a + b), integer(a) + integer(b));
+            prop_assert_eq!(integer(a - b), integer(a) - integer(b));
+        }
     }
 }

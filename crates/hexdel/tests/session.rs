@@ -357,3 +357,20 @@ fn small_sessions_have_hardly_more_triangles_than_meshes_made_at_once() {
     again.remove(&[PointId(3)]).unwrap();
     check(&again);
 }
+
+/// So many points are meshed at once, for which the domain has to be larger than they reach.
+#[test]
+fn a_domain_that_grows_makes_room_for_many_points_near_its_rim() {
+    let rim = 0.5 * 3f64.sqrt();
+    let ring: Vec<DVec2> =
+        (0..80).map(|i| 0.999 * rim * DVec2::from_angle(f64::from(i) * 4.5_f64.to_radians())).collect();
+    let empty = || Session::empty(DVec2::ZERO, 1.0).unwrap();
+    let refused = empty().insert_all(&ring);
+    assert!(matches!(refused, Err(SessionError::Mesh(hexdel::Error::DomainTooSmall { .. }))), "{refused:?}");
+    let mut session = empty().growing(true);
+    let outcome = session.insert_all(&ring).unwrap();
+    assert_eq!(outcome.domain, Some((DVec2::ZERO, 2.0)));
+    check(&session);
+    session.undo().unwrap();
+    assert_eq!(session.points().count(), 0);
+}

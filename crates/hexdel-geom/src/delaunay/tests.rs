@@ -55,6 +55,25 @@ fn rectangles_are_flipped() {
     assert!(is_delaunay(&m, AngleBounds::EXTENDED));
 }
 
+/// A flat triangle and a slender one on a common edge, in whatever place and order: that edge is found.
+#[test]
+fn a_bad_edge_is_found_wherever_it_is() {
+    for turn in 0..36 {
+        for (first, second) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {
+            let direction = DVec2::from_angle(f64::from(turn) * 10_f64.to_radians());
+            let (middle, aside) = (1000.0 * direction, DVec2::from_angle(f64::from(turn)));
+            let [a, c] = [middle - aside, middle + aside];
+            let [b, d] = [middle - 0.3 * aside.perp(), middle + 1.2 * aside.perp()];
+            let mut triangles = [[2, 0, 3], [3, 1, 2]];
+            triangles[0].rotate_left(first);
+            triangles[1].rotate_left(second);
+            let mut m = mesh(&[b, d, a, c].map(Into::into), &triangles);
+            let report = restore_delaunay(&mut m, wide(), |_| false);
+            assert_eq!(report.map(|r| r.flips), Ok(1), "turn {turn}, {triangles:?}");
+        }
+    }
+}
+
 /// Kites of two right triangles with legs 1 and 0.98, four around a vertex of
 /// a rotated lattice: flipping would make angles of about 91 degrees.
 fn kite(turn: f64) -> TriMesh {

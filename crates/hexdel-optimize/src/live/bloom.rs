@@ -23,18 +23,20 @@ const STEPS: [Step; 3] = [
     Step::Search { changes: 20, rings: 3, wide: false },
 ];
 
-/// The part with the triangles that `inner` marks made room in, and all angles
-/// within the bounds again; none where that is not reached soon.
+/// The part with the triangles that `inner` marks made room in, and as many angles within the bounds again as
+/// is reached soon; none where a side would have to be divided.
 pub(crate) fn refine<'a>(cut: &Cut, tools: &'a Tools, inner: &[bool]) -> Option<Work<'a>> {
     let mut mesh = cut.mesh.clone();
     let region: Vec<u32> = (0..inner.len() as u32).filter(|&t| inner[t as usize]).collect();
     bloom(&mut mesh, &region)?;
     let mut work = tools.free_work(mesh, cut.failed.clone());
-    let settled = STEPS.into_iter().any(|step| {
+    for step in STEPS {
         repair(&mut work, step);
-        work.bad().is_empty()
-    });
-    settled.then_some(work)
+        if work.bad().is_empty() {
+            break;
+        }
+    }
+    Some(work)
 }
 
 /// Makes room in a region, in ascending order; none, and nothing done, where it ends at

@@ -109,6 +109,8 @@ pub struct LiveMesh {
     adopted: bool,
     /// Whether what becomes superfluous stays.
     drafts: bool,
+    /// Triangles that sweeps went over to make room for the last point.
+    visited: u64,
 }
 
 /// Rings of triangles around a change that are cut out with it: four of them
@@ -123,11 +125,12 @@ const BLOOM_RINGS: [usize; 2] = [1, 2];
 /// one ring the next round would find no vertices to move around the last one's.
 const CROWDED_RINGS: [usize; 2] = [3, 2];
 
-/// Parts that are repaired in vain for one point, at most.
-const MOST_FAILURES: usize = 16;
+/// Triangles that sweeps may go over to make room for one point, at most.
+const MOST_VISITS: u64 = 16 * ALLOWANCE;
 
-/// The same for a draft, which is refused where room takes long to make.
-const MOST_DRAFT_FAILURES: usize = 1;
+/// The same for each triangle of the mesh, and at least: the whole mesh is made anew for about as much.
+const VISITS: u64 = 4000;
+const LEAST_VISITS: u64 = ALLOWANCE / 5;
 
 /// Refinements until a point of a draft finds room.
 const MOST_DRAFT_REFINEMENTS: usize = 4;
@@ -139,7 +142,8 @@ const INNER_RINGS: [usize; 4] = [1, 2, 0, 3];
 /// A point that is this much closer to a fixed vertex than edges are long finds no room.
 const CROWDED: f64 = 0.2;
 
-/// A way to make the marked triangles of a part smaller.
+/// A way to make the marked triangles of a part smaller and to repair what surrounds them; none where they
+/// cannot be divided.
 type Refine = for<'a> fn(&Cut, &'a Tools, &[bool]) -> Option<Work<'a>>;
 
 /// Refinements until a point finds room. Each halves the edges around it; as
@@ -207,6 +211,7 @@ impl LiveMesh {
             bounds,
             adopted: false,
             drafts: false,
+            visited: 0,
         }
     }
 
@@ -233,24 +238,47 @@ impl LiveMesh {
     ///
     /// [`LiveError`]; the mesh is then as it was.
     pub fn insert(&mut self, p: DVec2) -> Result<u32, LiveError> {
+        self.insert_within(p, if self.drafts { DRAFT_ALLOWANCE } else { MOST_VISITS })
+    }
+
+    /// The same, but the point is refused for want of room as soon as the search has taken about as much work as
+    /// meshing the whole anew.
+    ///
+    /// # Errors
+    ///
+    /// As [`insert`](Self::insert).
+    pub fn insert_soon(&mut self, p: DVec2) -> Result<u32, LiveError> {
+        let [_, triangles] = self.counts();
+        let whole = (VISITS * triangles as u64).clamp(LEAST_VISITS, MOST_VISITS);
+        self.insert_within(p, if self.drafts { DRAFT_ALLOWANCE } else { whole })
+    }
+
+    /// Puts a fixed vertex at `p`, for which room is made in at most so many visits.
+    fn insert_within(&mut self, p: DVec2, most: u64) -> Result<u32, LiveError> {
         let spot = self.locate(p)?;
         let corner = self.store.triangle(spot.triangle).v.into_iter().find(|&v| self.store.at(v) == p);
         if let Some(v) = corner {
             return self.pin(v, p);
         }
+        let allowance = self.tools.allowance;
+        self.tools.allowance = most.min(allowance);
+        let slot = self.insert_new(p, most);
+        self.tools.allowance = allowance;
+        slot
+    }
+
+    /// Puts a fixed vertex where there is none.
+    fn insert_new(&mut self, p: DVec2, most: u64) -> Result<u32, LiveError> {
         let (mark, serials) = (self.store.mark(), self.store.serials);
-        let (refinements, mut failures) = if self.drafts {
-            (MOST_DRAFT_REFINEMENTS, MOST_FAILURES - MOST_DRAFT_FAILURES)
-        } else {
-            (MOST_REFINEMENTS, 0)
-        };
+        let refinements = if self.drafts { MOST_DRAFT_REFINEMENTS } else { MOST_REFINEMENTS };
+        self.visited = 0;
         for _ in 0..refinements {
             let spot = self.locate(p)?;
             let crowded = self.is_crowded(spot.triangle, p);
             if !crowded && let Some(v) = self.insert_at(spot, p, mark, false) {
                 return Ok(v);
             }
-            if !self.make_room(spot.triangle, crowded, &mut failures) {
+            if !self.make_room(spot.triangle, crowded, most) {
                 break;
             }
         }
@@ -297,24 +325,13 @@ impl LiveMesh {
         fixed.any(|v| self.store.at(v).distance(p) < CROWDED * shortest)
     }
 
-    /// Makes triangles smaller around triangle `t` that holds `p`; false, and nothing
-    /// done, where what surrounds them cannot be brought inside the bounds.
-    fn make_room(&mut self, t: u32, crowded: bool, failures: &mut usize) -> bool {
-        let soon = |inner| self.work_inside(rings(&self.store, &[t], inner), bloom::refine);
+    /// Makes triangles smaller around triangle `t`; false, and nothing done, where
+    /// what surrounds them is not brought inside the bounds within `most` visits of all rounds.
+    fn make_room(&mut self, t: u32, crowded: bool, most: u64) -> bool {
         let blooms = if crowded { CROWDED_RINGS } else { BLOOM_RINGS };
-        if blooms.into_iter().any(soon) {
-            return true;
-        }
-        for inner in INNER_RINGS {
-            if *failures >= MOST_FAILURES {
-                break;
-            }
-            if self.refine_around(t, inner) {
-                return true;
-            }
-            *failures += 1;
-        }
-        false
+        blooms.into_iter().any(|inner| {
+            self.visited < most && self.work_inside(rings(&self.store, &[t], inner), bloom::refine)
+        }) || INNER_RINGS.into_iter().any(|inner| self.visited < most && self.refine_around(t, inner))
     }
 
     /// Refines so many rings around triangle `t`; false, and nothing done, where
@@ -329,13 +346,15 @@ impl LiveMesh {
         let cut = Cut::new(&self.store, rings(&self.store, &inside, RINGS));
         inside.retain(|&t| !self.is_exempt(t));
         let marks: Vec<bool> = cut.triangles.iter().map(|t| inside.binary_search(t).is_ok()).collect();
-        match refine(&cut, &self.tools, &marks) {
-            Some(work) if cut.keeps_disk(&work.mesh) => {
-                cut.put_back(&mut self.store, &work.mesh, &work.failed);
-                true
-            }
-            _ => false,
+        let Some(work) = refine(&cut, &self.tools, &marks) else {
+            return false;
+        };
+        self.visited += work.visits();
+        let holds = work.bad().is_empty() && cut.keeps_disk(&work.mesh);
+        if holds {
+            cut.put_back(&mut self.store, &work.mesh, &work.failed);
         }
+        holds
     }
 
     /// Whether a triangle is within its bounds for no other reason than the angle

@@ -15,11 +15,12 @@ use crate::live::insert::{Tools, repair_rounds};
 use crate::mesh::{Around, Mesh, Motion, NONE, Tri, Vertices};
 use crate::work::Work;
 
-/// The part with the triangles that `inner` marks cut in four and all angles
-/// within the bounds again; none where that is not reached.
+/// The part with the triangles that `inner` marks cut in four, repaired as far as the allowance reaches; none where
+/// one of them cannot be cut.
 pub(crate) fn refine<'a>(cut: &Cut, tools: &'a Tools, inner: &[bool]) -> Option<Work<'a>> {
     let mut work = tools.free_work(cut_in_four(cut, inner)?, cut.failed.clone());
-    repair_rounds(&mut work).then_some(work)
+    repair_rounds(&mut work);
+    Some(work)
 }
 
 /// The part with the triangles that `inner` marks cut in four; none if one of

@@ -13,6 +13,7 @@ mod domain;
 mod draft;
 mod error;
 mod graph;
+mod insert;
 mod outcome;
 mod remesh;
 mod saved;
@@ -30,7 +31,6 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 pub use any::AnySession;
-use domain::reaching;
 pub use error::SessionError;
 pub use graph::SessionCheck;
 use graph::{Frame, Told};
@@ -40,10 +40,6 @@ pub use templates::TemplateSession;
 
 /// Calls that can be undone.
 const UNDO: usize = 256;
-
-/// From so many new points on, and as many as there are, the whole is meshed
-/// anew: point by point takes ten times as long.
-const BATCH: usize = 64;
 
 /// A mesh that changes.
 ///
@@ -212,94 +208,6 @@ impl Session {
             drafts: false,
             history: VecDeque::new(),
         })
-    }
-
-    /// Puts a point in.
-    ///
-    /// # Errors
-    ///
-    /// As [`insert_all`](Self::insert_all).
-    pub fn insert(&mut self, point: DVec2) -> Result<Outcome, SessionError> {
-        self.insert_all(&[point])
-    }
-
-    /// Puts points in, all or none.
-    ///
-    /// # Errors
-    ///
-    /// [`SessionError`] for a point that is not finite, outside of a domain that does not
-    /// [grow](Self::growing), there already or too close to another, or for which there is no room within the bounds.
-    ///
-    /// # Complexity
-    ///
-    /// For each point in proportion to the triangles that it changes; where
-    /// changes nearby do not suffice, or there are more new points than
-    /// points, the whole is meshed anew. Without segments, the mesh of up to 1,024 points is
-    /// compared with one made at once now and then, and meshed anew if that is smaller: of up to
-    /// 32 points after every call, of up to 64 after every other, of up to 256 when an eighth
-    /// has changed, then half.
-    pub fn insert_all(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
-        let before = self.points.len();
-        let present = self.of_slot.len();
-        if self.grows
-            && !self.drafts
-            && self.frame.is_none()
-            && let Some(radius) = reaching((self.centre, self.radius), points)
-        {
-            return self.insert_by_growing(points, radius);
-        }
-        if self.frame.is_none() && !self.drafts && points.len() >= BATCH && points.len() >= present {
-            return self.insert_by_remeshing(points);
-        }
-        for &point in points {
-            match self.insert_one(point) {
-                Ok(()) => {}
-                Err(Refused::Error(error)) => {
-                    self.abandon(before);
-                    return Err(error);
-                }
-                Err(Refused::NoRoom) => {
-                    self.abandon(before);
-                    if self.drafts {
-                        return Err(SessionError::NoRoom { at: point });
-                    }
-                    if let Some(frame) = self.frame.clone() {
-                        return self.insert_by_remeshing_graph(&frame, points, point);
-                    }
-                    return self.insert_by_remeshing(points);
-                }
-            }
-        }
-        let changed = self.changed;
-        let outcome =
-            self.improved(points.len(), true, |session| session.abandon(before)).unwrap_or_else(|| {
-                let undo = (before..self.points.len()).map(|i| (PointId(i as u64), None)).collect();
-                self.done(before, undo, self.size.clone())
-            });
-        Ok(self.counting_from(changed, outcome))
-    }
-
-    fn insert_one(&mut self, at: DVec2) -> Result<(), Refused> {
-        self.check_point(at)?;
-        let id = PointId(self.points.len() as u64);
-        let slot = match self.live.insert(at) {
-            Ok(slot) => slot,
-            Err(LiveError::Occupied { slot, .. }) => match self.of_slot.get(&slot) {
-                Some(&of) => return Err(SessionError::Duplicate { at, of }.into()),
-                // A corner of the domain that is no point yet.
-                None => slot,
-            },
-            Err(LiveError::Outside { .. }) if self.frame.is_some() => {
-                return Err(SessionError::NotCovered { at }.into());
-            }
-            Err(LiveError::Outside { .. }) => {
-                return Err(SessionError::Outside { at, radius: self.radius }.into());
-            }
-            Err(_) => return Err(Refused::NoRoom),
-        };
-        self.points.push(Some(slot));
-        self.of_slot.insert(slot, id);
-        Ok(())
     }
 
     /// Refuses a point that coordinates do not tell from another.
@@ -583,16 +491,4 @@ fn compact(mesher: &Mesher) -> Result<Mesher, SessionError> {
     }
     error::refuse_dual_edges(mesher)?;
     Ok(mesher.clone().method(Method::Compact))
-}
-
-/// Why a point was not put in.
-enum Refused {
-    Error(SessionError),
-    NoRoom,
-}
-
-impl From<SessionError> for Refused {
-    fn from(error: SessionError) -> Self {
-        Self::Error(error)
-    }
 }

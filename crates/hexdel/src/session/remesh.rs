@@ -20,9 +20,14 @@ const COMPARED: [(usize, usize); 3] = [(64, 32), (256, 8), (1024, 2)];
 const MORE: f64 = 1.05;
 
 impl Session {
-    /// Meshes all points anew, with more.
+    /// Meshes all points anew, with more, in a larger domain where this one has too little room and grows.
     pub(super) fn insert_by_remeshing(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
-        self.insert_anew(points, self.radius)
+        match self.insert_anew(points, self.radius) {
+            Err(SessionError::Mesh(Error::DomainTooSmall { least, .. })) if self.grows => {
+                self.insert_by_growing(points, least.max(2.0 * self.radius))
+            }
+            outcome => outcome,
+        }
     }
 
     fn insert_anew(&mut self, points: &[DVec2], radius: f64) -> Result<Outcome, SessionError> {
