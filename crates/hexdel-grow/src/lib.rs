@@ -37,7 +37,7 @@ use hexdel_optimize::edit::{EditMesh, NONE};
 pub use error::GrowError;
 pub use hexdel_optimize::edit::Kind;
 use limits::RANGE_DEG;
-pub use options::{Grown, Input, Options, Role, Stats};
+pub use options::{Grown, Input, Options, Role, Size, Stats};
 use refiner::Refiner;
 
 /// Grows a mesh out of points and segments.
@@ -86,7 +86,7 @@ pub fn grow(input: &Input<'_>, options: &Options, monitor: &dyn Monitor) -> Resu
     let mut best: Option<Grown> = None;
     for attempt in 0..ATTEMPTS {
         let mesh = first.mesh.clone();
-        let mut refiner = Refiner::new(mesh, &ends, options.min_deg, strict, options.deadline);
+        let mut refiner = Refiner::new(mesh, &ends, options, input.size, strict);
         refiner.protect(&|v| shrunk.get(v as usize).copied().unwrap_or(1.0));
         // Progress only advances: what is grown anew is not told.
         let monitor: &dyn Monitor = if attempt == 0 { monitor } else { &Quiet(monitor) };

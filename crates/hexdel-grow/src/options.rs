@@ -1,5 +1,7 @@
 //! What the caller says and gets.
 
+use std::fmt;
+
 use web_time::Instant;
 
 use hexdel_geom::{DVec2, TriMesh, VertexId};
@@ -17,6 +19,16 @@ pub enum Role {
     Inner,
 }
 
+/// How large triangles may be, place by place.
+pub trait Size: fmt::Debug {
+    /// The length of edges to aim at around a place, infinity where any will do.
+    fn aim(&self, at: DVec2) -> f64;
+
+    /// How many times as large as allowed a triangle is, as a length: its longest edge over what is allowed, or the root of its area over that
+    /// of what is.
+    fn excess(&self, corners: [DVec2; 3]) -> f64;
+}
+
 /// What a mesh grows out of.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Input<'a> {
@@ -30,6 +42,8 @@ pub struct Input<'a> {
     pub holes: &'a [DVec2],
     /// Whether what segments do not enclose is left empty, too.
     pub inside: bool,
+    /// How large triangles may be.
+    pub size: Option<&'a dyn Size>,
 }
 
 impl Input<'_> {
@@ -47,12 +61,14 @@ pub struct Options {
     pub min_deg: f64,
     /// When to give up, with [`OutOfTime`](crate::GrowError::OutOfTime).
     pub deadline: Option<Instant>,
+    /// Vertices made for size, at most.
+    pub most_for_size: u64,
 }
 
 impl Options {
     /// A lower bound, degrees, and no deadline.
     pub fn new(min_deg: f64) -> Self {
-        Self { min_deg, deadline: None }
+        Self { min_deg, deadline: None, most_for_size: u64::MAX }
     }
 
     /// The same with a time to give up at.
@@ -98,6 +114,8 @@ pub struct Stats {
     pub others: u64,
     /// Edges of segments divided.
     pub splits: u64,
+    /// Vertices inserted where triangles were too large.
+    pub for_size: u64,
     /// Narrow corners whose tips are kept as they are.
     pub tips: u64,
 }

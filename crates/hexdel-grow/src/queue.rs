@@ -9,6 +9,8 @@ const BUCKETS: usize = 1 << (63 - SHIFT);
 /// How urgent a triangle is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Level {
+    /// The triangle is too large.
+    Large,
     /// An angle is far below what a start of the mesh has: the cheap repairs only.
     Urgent,
     /// All repairs.
@@ -16,6 +18,8 @@ pub(crate) enum Level {
     /// All repairs, after all others: segments would have to be divided.
     Late,
 }
+
+const LEVELS: [Level; 4] = [Level::Large, Level::Urgent, Level::Rest, Level::Late];
 
 /// Triangles with the stamps they had, in buckets.
 #[derive(Debug)]
@@ -29,7 +33,7 @@ pub(crate) struct Queue {
 
 impl Queue {
     pub(crate) fn new() -> Self {
-        let all = 3 * BUCKETS;
+        let all = LEVELS.len() * BUCKETS;
         Self { buckets: vec![Vec::new(); all], filled: vec![0; all / 64], low: all }
     }
 
@@ -47,7 +51,7 @@ impl Queue {
             self.low = k;
             while let Some((t, stamp)) = self.buckets[k].pop() {
                 if stamps[t as usize] == stamp {
-                    let level = [Level::Urgent, Level::Rest, Level::Late][k / BUCKETS];
+                    let level = LEVELS[k / BUCKETS];
                     return Some((t, level));
                 }
             }

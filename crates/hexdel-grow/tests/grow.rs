@@ -187,7 +187,14 @@ fn whole_segments_are_not_divided_and_inner_ones_are_no_border() {
         Role::Whole,
     ];
     let holes = [DVec2::new(1.5, 1.5)];
-    let input = Input { points: &points, segments: &segments, roles: &roles, holes: &holes, inside: true };
+    let input = Input {
+        points: &points,
+        segments: &segments,
+        roles: &roles,
+        holes: &holes,
+        inside: true,
+        ..Input::default()
+    };
     assert!(matches!(grow(&input, &Options::new(30.0), &Unwatched), Err(GrowError::NothingEnclosed)));
     let input = Input { holes: &[], ..input };
     let made = grown(&input, 20.0);

@@ -157,6 +157,12 @@ const BATCH: usize = 8;
 /// all together may take, and none has enough.
 const FEW: usize = 60;
 
+/// Where sizes are limited, a pass of removals that takes less than one triangle of so many is the last.
+const WORTH: usize = 100;
+
+/// The same as one of so many.
+const RARE: usize = 1000;
+
 /// Triangles visited by projection sweeps for each of them, at most: those that
 /// are rescued at all took a million in the median, five at most.
 const RESCUE_VISITS: u64 = 4_000_000;
@@ -229,27 +235,38 @@ impl<'a> Run<'a> {
     /// the room that what is left needs.
     fn all(&mut self) -> Result<(), Stop> {
         if self.repairs_first() {
-            self.move_all()?;
-            self.search()?;
+            self.repair(true)?;
             if self.options.bounds_first && !self.hopeful(false).is_empty() {
                 return Ok(());
             }
         }
         self.shorten()?;
-        match self.passes() {
-            0 => self.move_all()?,
-            passes => self.decimate(0, passes)?,
-        }
-        self.search()?;
+        let passes = self.passes();
+        self.decimate(0, passes)?;
+        self.repair(passes == 0)?;
         if self.options.effort == Effort::Best {
             self.decimate(self.passes(), PASSES.len())?;
             self.guard = self.sizing;
             for _ in 0..SHAKES {
                 self.round(shake)?;
             }
-            self.search()?;
+            self.repair(false)?;
         }
         self.shorten()
+    }
+
+    /// Search, after motion if that is wanted. Where edges are divided none becomes too long at first, and only what
+    /// that leaves is repaired without such care.
+    fn repair(&mut self, moves: bool) -> Result<(), Stop> {
+        let guarded = self.divides.map(Some);
+        for guard in guarded.into_iter().chain([None]) {
+            self.guard = guard;
+            if moves {
+                self.move_all()?;
+            }
+            self.search()?;
+        }
+        Ok(())
     }
 
     /// Divides edges longer than wanted, and what is too large with them.
@@ -311,27 +328,32 @@ impl<'a> Run<'a> {
         let divides = self.divides.is_some() || self.rules.limits_areas();
         let divisions = if divides { 2 * DIVISIONS } else { 0 };
         let repair = repair::MOVES.len() + repair::SEARCH.len() + RESCUE_RINGS.len();
+        let repair = repair * (1 + usize::from(self.divides.is_some()));
         let once = divisions + repair * (1 + usize::from(self.repairs_first()));
         match self.options.effort {
             Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),
-            Effort::Best => once + PASSES.len() + SHAKES + repair::SEARCH.len() + RESCUE_RINGS.len(),
+            Effort::Best => once + PASSES.len() + SHAKES + repair,
         }
     }
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
         self.guard = self.sizing;
+        let is_limited = self.divides.is_some() || self.rules.limits_areas();
         for (&pass, i) in PASSES[from..to].iter().zip(from..) {
+            let before = self.soup.tris.len();
             self.round(|work| {
                 repair::moves(work, i);
                 decimate(work, pass);
             })?;
+            if is_limited && before.saturating_sub(self.soup.tris.len()) < before / WORTH {
+                break;
+            }
         }
         Ok(())
     }
 
     /// Motion alone, over the whole mesh.
     fn move_all(&mut self) -> Result<(), Stop> {
-        self.guard = None;
         for i in 0..repair::MOVES.len() {
             let bad = self.bad();
             if bad.is_empty() {
@@ -349,7 +371,6 @@ impl<'a> Run<'a> {
 
     /// Changes of topology where triangles are left outside.
     fn search(&mut self) -> Result<(), Stop> {
-        self.guard = None;
         let constrained = self.soup.is_constrained();
         let (mut least, mut idle) = (usize::MAX, 0);
         for (i, steps) in repair::SEARCH.into_iter().enumerate() {
@@ -377,7 +398,8 @@ impl<'a> Run<'a> {
             let bad = self.hopeful(false);
             // PSLGs with many bad spots, or some that stay as they are, are
             // better made anew with a finer start.
-            let elsewhere = constrained && (bad.len() > FEW || bad.len() >= least);
+            let few = FEW.max(self.soup.tris.len() / RARE);
+            let elsewhere = constrained && (bad.len() > few || bad.len() >= least);
             if elsewhere || bad.is_empty() || bad.len() > self.soup.tris.len() / HOPELESS {
                 break;
             }

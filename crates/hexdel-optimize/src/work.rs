@@ -183,8 +183,8 @@ impl<'a> Work<'a> {
             && (!self.rules.limits_areas() || self.areas_hold())
     }
 
-    /// Whether nothing that changed since the last commit is clockwise, flat or
-    /// larger than allowed. A mesh with segments comes without such triangles, so that
+    /// Whether nothing that changed since the last commit is clockwise, flat,
+    /// larger than allowed or longer than wanted. A mesh with segments comes without such triangles, so that
     /// no step towards the bounds may make one; other starts may have some to be repaired.
     pub(crate) fn stays_valid(&self) -> bool {
         let mesh = &self.mesh;
@@ -197,7 +197,10 @@ impl<'a> Work<'a> {
         };
         let mut valid = self.touched().iter().all(|&t| turns_left(t));
         mesh.changed(|t| valid = valid && turns_left(t));
-        valid && !self.patch.collapses() && (!self.rules.limits_areas() || self.areas_hold())
+        valid
+            && !self.patch.collapses()
+            && self.changes_fit()
+            && (!self.rules.limits_areas() || self.areas_hold())
     }
 
     /// Whether what has been near a segment and is no more keeps the bounds

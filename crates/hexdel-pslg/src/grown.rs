@@ -6,7 +6,7 @@ use crate::geometry::fraction;
 use crate::net::{Kind, Net};
 use crate::options::Extent;
 use hexdel_geom::{DVec2, Monitor, Pslg};
-use hexdel_grow::{GrowError, Input, Kind as GrownKind, Options, Role, grow};
+use hexdel_grow::{GrowError, Input, Kind as GrownKind, Options, Role, Size, grow};
 
 /// A mesh that has grown.
 pub(crate) struct Grown {
@@ -22,7 +22,8 @@ pub(crate) fn grown(
     pslg: &Pslg,
     extent: Extent,
     corners: [DVec2; 6],
-    min_deg: f64,
+    options: &Options,
+    size: Option<&dyn Size>,
     monitor: &dyn Monitor,
 ) -> Result<Option<Grown>, PslgError> {
     let sites = scene.sites.len() as u32;
@@ -40,8 +41,9 @@ pub(crate) fn grown(
         roles: &roles,
         holes: &pslg.holes,
         inside: extent != Extent::Hexagon,
+        size,
     };
-    match grow(&input, &Options::new(min_deg), monitor) {
+    match grow(&input, options, monitor) {
         Ok(made) => Ok(Some(Grown { net: net_of(&made, scene), left: made.left })),
         Err(GrowError::Cancelled(c)) => Err(c.into()),
         Err(_) => Ok(None),

@@ -10,7 +10,9 @@ use crate::result::Reason;
 use crate::sizing::scale_of;
 use crate::validate::Validated;
 use hexdel_geom::{Circle, DVec2};
+use hexdel_grow::Size;
 use hexdel_optimize::{Sizing, edge_fits, triangle_fits};
+use std::fmt;
 
 /// The largest triangle of a grid over the square of its spacing: equilateral
 /// ones have 0.433, templates and the optimiser make larger ones.
@@ -38,6 +40,9 @@ const CELLS: u32 = 64;
 
 /// What an equilateral triangle's area is over the square of its side.
 const EQUILATERAL: f64 = 0.433_012_701_892_219_3;
+
+/// Edges aimed at over those of equilateral triangles with the area allowed: areas vary less than the longest edges.
+const AREA_AIM: f64 = 1.03;
 
 /// By place: how large triangles may be, and how long edges.
 pub(crate) struct Limits<'a> {
@@ -210,6 +215,27 @@ impl<'a> Limits<'a> {
             return Err(PslgError::too_many(most, finest.1));
         }
         Ok(())
+    }
+}
+
+impl fmt::Debug for Limits<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Limits").field("size", &self.size).finish_non_exhaustive()
+    }
+}
+
+impl Size for Limits<'_> {
+    fn aim(&self, at: DVec2) -> f64 {
+        let by_area = AREA_AIM * (self.area_at(at) / EQUILATERAL).sqrt();
+        self.size.map_or(by_area, |size| by_area.min(size.at(at)))
+    }
+
+    fn excess(&self, [a, b, c]: [DVec2; 3]) -> f64 {
+        let area = 0.5 * (b - a).perp_dot(c - a);
+        let by_area = (area / self.area_at((a + b + c) / 3.0)).sqrt();
+        let Some(size) = self.size else { return by_area };
+        let by_edge = |p: DVec2, q: DVec2| p.distance(q) / allowed(size, p, q);
+        by_area.max(by_edge(a, b)).max(by_edge(b, c)).max(by_edge(c, a))
     }
 }
 

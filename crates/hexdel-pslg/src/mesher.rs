@@ -363,13 +363,21 @@ impl<'a> Mesher<'a> {
     /// The mesh that grows out of the input, optimised; none where growth does not know what is asked for, or time
     /// was up before there was one.
     fn grown(&self, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
-        let Some(effort) = self.options.compact.filter(|_| self.limits.is_none()) else {
-            return Ok(None);
-        };
+        let Some(effort) = self.options.compact else { return Ok(None) };
         let first = Timed::new(monitor, self.deadline, false);
         let corners = self.hexagon(GROWN_RADII);
-        let least = self.options.near.min_deg();
-        let net = match grown(&self.scene, &self.input.pslg, self.options.extent, corners, least, &first) {
+        let mut options = hexdel_grow::Options::new(self.options.near.min_deg());
+        options.most_for_size = self.options.max_triangles as u64 / 2;
+        let size = self.limits.as_ref().map(|limits| limits as &dyn hexdel_grow::Size);
+        let net = match grown(
+            &self.scene,
+            &self.input.pslg,
+            self.options.extent,
+            corners,
+            &options,
+            size,
+            &first,
+        ) {
             Err(PslgError::Cancelled(_)) if first.has_stopped() => return Ok(None),
             net => net?,
         };
@@ -383,6 +391,8 @@ impl<'a> Mesher<'a> {
         if judged && left.iter().filter(|&&t| is_left(t)).count() > MOST_LEFT {
             return Ok(None);
         }
+        // With sizes there is little to remove.
+        let effort = if self.limits.is_some() && effort == Effort::Fast { Effort::Repair } else { effort };
         compact(net, &self.kept(), effort, monitor).map(Some)
     }
 

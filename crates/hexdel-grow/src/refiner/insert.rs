@@ -48,9 +48,12 @@ impl Refiner<'_> {
         // Heights over the edge, in edge lengths: with c at (x, y) the circumcentre is (y^2 + x^2 - x) / 2y high.
         let double_area = ab.perp_dot(ac);
         let circum = if double_area > 0.0 { 0.5 * ac.dot(c - b) / double_area } else { f64::MAX };
-        let half = 0.5 * (self.limits.lo_deg + SLACK_DEG).to_radians();
-        let off = 0.5 / libm::tan(half);
-        (a + 0.5 * ab + off.min(circum) * ab.perp(), ab.length_squared())
+        (a + 0.5 * ab + self.off_height().min(circum) * ab.perp(), ab.length_squared())
+    }
+
+    /// How high the off-centre is over its edge, in lengths of the edge.
+    pub(super) fn off_height(&self) -> f64 {
+        0.5 / libm::tan(0.5 * (self.limits.lo_deg + SLACK_DEG).to_radians())
     }
 
     /// Notes a segment that is in the way, by a corner opposite its edge.

@@ -4,6 +4,7 @@ mod insert;
 mod patch;
 mod place;
 mod search;
+mod size;
 mod slide;
 mod split;
 mod tips;
@@ -17,7 +18,7 @@ use hexdel_optimize::edit::{Cavity, EditMesh, Kind, NONE, next, prev};
 
 use crate::error::GrowError;
 use crate::limits::{Limits, Shape};
-use crate::options::Stats;
+use crate::options::{Options, Size, Stats};
 use crate::queue::{Level, Queue};
 use patch::Scratch;
 
@@ -52,6 +53,11 @@ pub(crate) struct Refiner<'a> {
     pub(crate) limits: Limits,
     /// The ends of each segment.
     pub(crate) segments: &'a [[DVec2; 2]],
+    /// How large triangles may be.
+    size: Option<&'a dyn Size>,
+    most_for_size: u64,
+    /// Triangles are divided from so much excess on.
+    slack: f64,
     pub(crate) stats: Stats,
     queue: Queue,
     /// How urgent the triangle at hand is.
@@ -98,15 +104,18 @@ impl<'a> Refiner<'a> {
     pub(crate) fn new(
         mesh: EditMesh,
         segments: &'a [[DVec2; 2]],
-        min_deg: f64,
+        options: &Options,
+        size: Option<&'a dyn Size>,
         strict: bool,
-        deadline: Option<Instant>,
     ) -> Self {
         let most_fallbacks =
             FALLBACKS[0] * mesh.pos.len() as u64 + FALLBACKS[1] * doublings(&mesh) + FALLBACKS[2];
         Self {
-            limits: Limits::new(min_deg, URGENT_DEG),
+            limits: Limits::new(options.min_deg, URGENT_DEG),
             segments,
+            size,
+            most_for_size: options.most_for_size,
+            slack: 1.0,
             stats: Stats::default(),
             queue: Queue::new(),
             level: Level::Urgent,
@@ -120,7 +129,7 @@ impl<'a> Refiner<'a> {
             cavities: Vec::new(),
             segments_met: Vec::new(),
             scratch: Scratch::default(),
-            deadline,
+            deadline: options.deadline,
             mesh,
         }
     }
@@ -128,6 +137,7 @@ impl<'a> Refiner<'a> {
     /// Repairs all that can be repaired within the limit of work.
     pub(crate) fn run(&mut self, monitor: &dyn Monitor) -> Result<(), GrowError> {
         self.look(monitor)?;
+        self.fill(monitor)?;
         for near_sq in NEAR_SQ {
             self.near_sq = near_sq;
             self.given_up = 0;
@@ -137,6 +147,7 @@ impl<'a> Refiner<'a> {
                 break;
             }
         }
+        self.grade(monitor)?;
         monitor.progress(Phase::Extract, self.most_made, self.most_made);
         Ok(())
     }
@@ -152,12 +163,16 @@ impl<'a> Refiner<'a> {
     fn work(&mut self, monitor: &dyn Monitor) -> Result<(), GrowError> {
         let mut look = 0;
         while let Some((t, level)) = self.queue.pop(&self.mesh.stamp) {
-            if !self.mesh.alive(t) || !self.is_bad(t) {
+            if !self.mesh.alive(t) || level != Level::Large && !self.is_bad(t) {
                 continue;
             }
             self.level = level;
             let (stamp, given_up) = (self.mesh.stamp[t as usize], self.given_up);
-            self.repair(t);
+            if level == Level::Large {
+                self.divide(t);
+            } else {
+                self.repair(t);
+            }
             if self.given_up == given_up && self.mesh.alive(t) && self.mesh.stamp[t as usize] == stamp {
                 self.push_if_bad(t);
             }
@@ -195,7 +210,10 @@ impl<'a> Refiner<'a> {
     }
 
     fn push_if_bad(&mut self, t: u32) {
-        if self.is_bad(t) {
+        if self.is_too_large(t) {
+            let shape = Shape::of(self.mesh.corners(t));
+            self.queue.push(t, self.mesh.stamp[t as usize], Level::Large, shape.shortest_sq);
+        } else if self.slack <= 1.0 && self.is_bad(t) {
             self.enqueue(t, false);
         }
     }

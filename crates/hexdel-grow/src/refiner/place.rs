@@ -146,7 +146,8 @@ impl Refiner<'_> {
         (out, moved)
     }
 
-    /// How many triangles of a fan are out of the bounds; [`TURNED`] if one is not surely counter-clockwise.
+    /// How many triangles of a fan are out of the bounds, or too large where vertices go for it; [`TURNED`] if one is
+    /// not surely counter-clockwise.
     pub(super) fn fan_bad(&self, cavity: &Cavity, x: DVec2) -> usize {
         let ring = cavity.ring();
         let n = ring.len();
@@ -177,7 +178,7 @@ impl Refiner<'_> {
             }
             p = r;
         }
-        bad
+        bad + usize::from(self.loses_size(cavity, x))
     }
 
     /// How many triangles of a cavity are out of the bounds.

@@ -51,17 +51,7 @@ impl Refiner<'_> {
     /// Divides the edge opposite a corner, where that leaves the fewest bad triangles: at a power of two from an
     /// input point at one end, as far as a vertex on a neighbouring segment, at the feet of the altitudes, about the middle.
     pub(super) fn split(&mut self, c: u32) -> bool {
-        let Some(segment) = self.mesh.segment(c).filter(|_| !self.mesh.is_locked(c)) else { return false };
-        let [a, b] = self.mesh.edge(c);
-        let is_input = |v: u32| self.mesh.kind[v as usize] == Kind::Fixed;
-        let edge = Edge {
-            corner: c,
-            segment,
-            from: self.mesh.at(a),
-            along: self.mesh.at(b) - self.mesh.at(a),
-            start_is_input: is_input(a),
-            end_is_input: is_input(b),
-        };
+        let Some(edge) = self.divisible(c) else { return false };
         let mut best: Option<(f64, Candidate, bool)> = None;
         for (j, place) in self.places(&edge).into_iter().enumerate() {
             let Some((candidate, gain)) = self.division(&edge, place.s) else { continue };
@@ -78,6 +68,31 @@ impl Refiner<'_> {
             self.mesh.kind[v as usize] = Kind::Held;
         }
         true
+    }
+
+    /// Divides the edge opposite a corner at this part of it.
+    pub(super) fn split_at(&mut self, c: u32, s: f64) -> bool {
+        let Some((candidate, _)) = self.divisible(c).and_then(|edge| self.division(&edge, s)) else {
+            return false;
+        };
+        self.commit(&candidate);
+        self.stats.splits += 1;
+        true
+    }
+
+    /// The edge opposite a corner, if it is on a segment and may be divided.
+    fn divisible(&self, c: u32) -> Option<Edge> {
+        let segment = self.mesh.segment(c).filter(|_| !self.mesh.is_locked(c))?;
+        let [a, b] = self.mesh.edge(c);
+        let is_input = |v: u32| self.mesh.kind[v as usize] == Kind::Fixed;
+        Some(Edge {
+            corner: c,
+            segment,
+            from: self.mesh.at(a),
+            along: self.mesh.at(b) - self.mesh.at(a),
+            start_is_input: is_input(a),
+            end_is_input: is_input(b),
+        })
     }
 
     /// A vertex on an edge with the Delaunay cavities on both sides, and how many bad triangles it brings.

@@ -101,7 +101,7 @@ impl Refiner<'_> {
         let at = self.mesh.at(v);
         let shortest = ends.iter().map(|&w| self.mesh.at(w).distance(at)).fold(f64::MAX, f64::min);
         let clear = clear_sq.sqrt().max(LEAST * shortest);
-        let radius = shrink(v) * power_of_two(REACH * shortest.min(clear));
+        let radius = shrink(v) * power_of_two(REACH * shortest.min(clear).min(self.aim_at(at)));
         Some(Tip { apex: v, radius, ends, narrow })
     }
 
@@ -242,7 +242,7 @@ impl Refiner<'_> {
     }
 
     /// Flips what is not Delaunay, everywhere.
-    fn restore_delaunay(&mut self) {
+    pub(super) fn restore_delaunay(&mut self) {
         let mut stack: Vec<u32> =
             (0..self.mesh.vertex.len() as u32).filter(|c| self.mesh.alive(c / 3)).collect();
         let mut most = 100 * stack.len();
