@@ -251,13 +251,16 @@ impl<'a> Mesher<'a> {
         let plan = Plan { demands: Vec::new(), lattice: self.lattice };
         let first = Timed::new(monitor, self.deadline, false);
         // What is too near for coordinates, or takes too many triangles, is found on the grid, whatever comes next.
-        let refined = self.refined(&plan, &first);
+        let mut refined = self.refined(&plan, None, &first);
         let grown = if refined.is_ok() { self.grown(monitor)? } else { None };
         if let Some(net) = grown.as_ref().filter(|net| self.faults(net).score() == 0) {
             let made = self.finished(net.clone(), 0, monitor)?;
             if made.holds() {
                 return Ok(made);
             }
+        }
+        if self.limits.is_some() {
+            refined = refined.and_then(|_| self.refined(&plan, self.limits.as_ref(), &first));
         }
         let net = match refined.and_then(|refiner| self.embedded(refiner, &first)) {
             Ok(net) => net,
@@ -314,7 +317,8 @@ impl<'a> Mesher<'a> {
     /// Another mesh out of a grid; none if there is no finer one, or no time for it.
     fn again(&self, plan: &Plan, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
         let timed = Timed::new(monitor, self.deadline, true);
-        let net = self.refined(plan, &timed).and_then(|refiner| self.embedded(refiner, &timed));
+        let refined = self.refined(plan, self.limits.as_ref(), &timed);
+        let net = refined.and_then(|refiner| self.embedded(refiner, &timed));
         match net.and_then(|net| self.improved(net, monitor)) {
             Ok(net) => Ok(Some(net)),
             Err(PslgError::Cancelled(c)) if !timed.has_stopped() => Err(c.into()),
@@ -507,18 +511,22 @@ impl<'a> Mesher<'a> {
         domain
     }
 
-    /// A grid as fine as sites and pieces ask for.
-    fn refined(&self, plan: &Plan, monitor: &dyn Monitor) -> Result<Refiner, PslgError> {
-        let spacing = |p: DVec2, is_seen: bool| {
-            self.limits.as_ref().map_or(f64::INFINITY, |limits| limits.spacing_at(p, is_seen))
-        };
+    /// A grid as fine as sites and pieces ask for, and limits.
+    fn refined(
+        &self,
+        plan: &Plan,
+        limits: Option<&Limits<'_>>,
+        monitor: &dyn Monitor,
+    ) -> Result<Refiner, PslgError> {
+        let spacing =
+            |p: DVec2, is_seen: bool| limits.map_or(f64::INFINITY, |limits| limits.spacing_at(p, is_seen));
         let features = Features {
             sites: self.sites(),
             pieces: &self.scene.pieces,
             input_of_site: &self.scene.input_of_site,
             demands: &plan.demands,
             carving: self.carving.as_ref(),
-            limit: self.limits.as_ref().map(|_| &spacing as &dyn Fn(DVec2, bool) -> f64),
+            limit: limits.map(|_| &spacing as &dyn Fn(DVec2, bool) -> f64),
             max_triangles: self.options.max_triangles,
         };
         refine(plan.lattice, &features, monitor)
