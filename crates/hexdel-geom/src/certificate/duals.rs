@@ -263,6 +263,62 @@ mod tests {
         );
     }
 
+    /// So far away that rounding may turn an angle by a twentieth of a radian, its cotangent may be what it is at the
+    /// angle turned by that, and at one turned by half as much again it may not.
+    #[test]
+    fn a_cotangent_is_granted_what_is_granted_to_the_angle() {
+        for (x, y) in [(9.0, 7.0), (8.0, 8.0), (7.0, 9.0)] {
+            let at = DVec2::splat(2f64.powi(49));
+            let corners = [at, at + DVec2::new(x, -y), at + DVec2::new(x, y)];
+            let far = mesh(&corners.map(DVec2::into), &[[0, 1, 2]]);
+            let granted = (ANGLE_TOLERANCE_DEG + rounding_slack_deg(corners)).to_radians();
+            assert!((0.04..0.06).contains(&granted), "{granted}");
+            let turned = |by: f64| 1.0 / (2.0 * (y / x).atan() - by).tan();
+            assert!(check_dual_edges(&far, turned(granted), &[]).holds(), "{x}");
+            assert!(!check_dual_edges(&far, turned(1.5 * granted), &[]).holds(), "{x}");
+        }
+    }
+
+    /// Right isosceles triangles apart from each other, the right angle at the first corner of each.
+    fn right(n: usize) -> TriMesh {
+        let corners = |i: usize| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| [x + 2.0 * i as f64, y]);
+        let triangles: Vec<[usize; 3]> = (0..n).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        mesh(&(0..n).flat_map(corners).collect::<Vec<_>>(), &triangles)
+    }
+
+    #[test]
+    fn an_edge_that_is_below_the_bound_by_all_that_is_granted_keeps_it() {
+        let right = right(1);
+        let hypotenuse = sides_of(&right, TriangleId::new(0), right.triangles[0]).find(|side| side.2 == 0.0);
+        let granted = hypotenuse.unwrap().3;
+        assert!(check_dual_edges(&right, granted, &[]).holds());
+        assert_eq!(check_dual_edges(&right, granted.next_up(), &[]).below, 1);
+    }
+
+    #[test]
+    fn the_first_edge_of_those_with_the_smallest_ratio_is_the_worst() {
+        let worst = check_dual_edges(&right(2), 0.1, &[]).worst.unwrap();
+        assert_eq!((worst.edge, worst.ratio), ([1, 2].map(VertexId::new), 0.0));
+        assert_eq!(worst.ends, [DVec2::X, DVec2::Y]);
+    }
+
+    /// Triangles are handled a chunk at a time.
+    #[test]
+    fn excused_triangles_are_found_in_every_chunk() {
+        let n = 2 * CHUNK + 5;
+        let excused = [CHUNK - 1, CHUNK + 2, n - 1].map(TriangleId::new);
+        let found = check_dual_edges(&right(n), 0.1, &excused);
+        assert_eq!((found.edges, found.below, found.excused), (3 * n, n - 3, 3));
+    }
+
+    #[test]
+    fn flat_and_clockwise_triangles_are_not_looked_at() {
+        for last in [[2.0, 2.0], [2.0, 1.0]] {
+            let found = check_dual_edges(&mesh(&[[0.0, 0.0], [1.0, 1.0], last], &[[0, 1, 2]]), 0.1, &[]);
+            assert_eq!((found.edges, found.worst), (0, None));
+        }
+    }
+
     #[test]
     fn broken_meshes_are_no_reason_to_panic() {
         let mut broken = kite(1.0, 1.0);

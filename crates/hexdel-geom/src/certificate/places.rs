@@ -313,7 +313,7 @@ mod tests {
         assert_eq!((found.far, found.broken.len(), found.far_min_deg), (7, 7, Some(45.0)));
         assert_eq!(found.broken[0].triangle, TriangleId::new(3));
         assert!(matches!(found.broken[0].promise, Promise::FarAngle { angle_deg, .. } if angle_deg == 45.0));
-        assert!(far(&mesh, &[DVec2::ZERO], 45.0).holds());
+        assert!(!found.holds() && far(&mesh, &[DVec2::ZERO], 45.0).holds());
     }
 
     /// Far from the origin coordinates are rounded to what shows in angles of 45 and 90 degrees; there are
@@ -382,6 +382,29 @@ mod tests {
         let found = check_promises(&mesh, &Promises { max_area: Some(&max_area), ..Promises::default() });
         let broken: Vec<usize> = found.broken.iter().map(|b| b.triangle.index()).collect();
         assert_eq!(broken, [2]);
+    }
+
+    /// Twice the area is the product of two sides.
+    #[test]
+    fn an_area_that_is_all_that_is_allowed_is_no_excess() {
+        let area_is_excess = |width: f64| {
+            let corners = [DVec2::ZERO, DVec2::new(2.0 * width, 0.0), DVec2::Y];
+            excess_area(corners, TriangleId::new(0), &|_, _| 1.0).is_some()
+        };
+        let most = 1.0 + SIZE_TOLERANCE;
+        assert!(!area_is_excess(most) && area_is_excess(most.next_up()));
+    }
+
+    /// Triangles are handled a chunk at a time.
+    #[test]
+    fn triangles_of_every_chunk_are_asked_for_and_named_by_their_index() {
+        let mesh = strip(CHUNK + 3, 0.5);
+        let small = [5, CHUNK, CHUNK + 1, 2 * CHUNK + 3];
+        let max_area = |t: TriangleId, _| if small.contains(&t.index()) { 0.2 } else { 0.3 };
+        let found = check_promises(&mesh, &Promises { max_area: Some(&max_area), ..Promises::default() });
+        let broken: Vec<usize> = found.broken.iter().map(|b| b.triangle.index()).collect();
+        assert_eq!(broken, small);
+        assert!(found.broken.iter().all(|b| b.corners == mesh.corners(b.triangle)));
     }
 
     /// Edges of 3, 4 and 5; the longest is not the one farthest above its limit.

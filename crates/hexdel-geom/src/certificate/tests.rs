@@ -3,6 +3,8 @@ use spade::{DelaunayTriangulation, Point2, Triangulation};
 
 use super::*;
 
+mod counts;
+
 const WIDE: fn() -> AngleBounds = || AngleBounds::new(0.0, 180.0).unwrap();
 
 fn mesh(vertices: &[[f64; 2]], triangles: &[[usize; 3]]) -> TriMesh {

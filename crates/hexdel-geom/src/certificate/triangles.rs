@@ -415,4 +415,31 @@ mod tests {
         let corners = [a, a + DVec2::new(2.0, 0.0), a + DVec2::new(0.0, 4.0)];
         near(rounding_slack_deg(corners), displacement * (1.0 / 2.0 + 1.0 / 4.0 + 20.0_f64.sqrt() / 8.0));
     }
+
+    /// Angles of 94.8 degrees, 4.8 too many, and of 36.9 and 48.4 degrees, 13.1 and 1.6 too few.
+    #[test]
+    fn the_angle_that_is_farthest_past_its_bound_is_named() {
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::new(0.4, 0.45)];
+        let bounds = AngleBounds::new(50.0, 90.0).unwrap();
+        for turn in 0..3 {
+            let mut turned = corners;
+            turned.rotate_left(turn);
+            let Fit::Outside { corner, angle_deg, below } = check_angles(turned, bounds) else {
+                panic!("{turn}")
+            };
+            assert!(turned[corner] == DVec2::X && (angle_deg - 36.9).abs() < 0.1 && below, "{turn}");
+            // Where the lower bound does not count it is the one that is too large.
+            let fit = check_angles_at(turned, bounds, [false; 3]);
+            let Fit::Outside { corner, below, .. } = fit else { panic!("{turn}") };
+            assert!(turned[corner] == corners[2] && !below, "{turn}");
+        }
+    }
+
+    #[test]
+    fn of_angles_equally_far_past_their_bounds_the_first_is_named() {
+        let named = |corners| check_angles(corners, AngleBounds::new(46.0, 90.0).unwrap());
+        let first = |corner| Fit::Outside { corner, angle_deg: 45.0, below: true };
+        assert_eq!(named([DVec2::ZERO, DVec2::X, DVec2::Y]), first(1));
+        assert_eq!(named([DVec2::X, DVec2::Y, DVec2::ZERO]), first(0));
+    }
 }
