@@ -19,13 +19,14 @@ pub enum Role {
     Inner,
 }
 
-/// How large triangles may be, place by place.
+/// How large triangles may be, place by place. Growth aims at it and does not promise it: triangles that are too large
+/// are left where nothing makes them smaller.
 pub trait Size: fmt::Debug {
     /// The length of edges to aim at around a place, infinity where any will do.
     fn aim(&self, at: DVec2) -> f64;
 
-    /// How many times as large as allowed a triangle is, as a length: its longest edge over what is allowed, or the root of its area over that
-    /// of what is.
+    /// How many times as large as allowed a triangle is, as a length: its longest edge over the length allowed, or the
+    /// root of its area over the area allowed. More than 1 is too large.
     fn excess(&self, corners: [DVec2; 3]) -> f64;
 }
 

@@ -1,8 +1,8 @@
 //! Triangles that are too large: vertices are put in front of short edges, as far away as edges are wanted long.
 //!
-//! As triangles with the shortest edges come first, fronts spread from what is fine already, and triangles come out nearly
-//! equilateral. The idea of placing them there: Rebay, "Efficient unstructured mesh generation by means of Delaunay
-//! triangulation and Bowyer-Watson algorithm", J. Comput. Phys. 106 (1993).
+//! As triangles with the shortest edges come first, fronts spread from what is fine already, and most triangles come out
+//! nearly equilateral. The idea of placing vertices there: Rebay, "Efficient unstructured mesh generation by means of
+//! Delaunay triangulation and Bowyer-Watson algorithm", J. Comput. Phys. 106 (1993).
 
 use hexdel_geom::{DVec2, Monitor};
 use hexdel_optimize::edit::{Cavity, Kind};
@@ -12,6 +12,7 @@ use super::{Candidate, Refiner};
 use crate::error::GrowError;
 use crate::limits::{Shape, surely_turns_left};
 use crate::options::Size;
+
 /// Lengths aimed at over those allowed: some edges become longer than aimed at.
 const AIM: f64 = 0.85;
 
@@ -27,8 +28,8 @@ const SPARE: f64 = 0.05;
 /// An edge that is so many times as long as wanted has nothing to say about the next vertex's place.
 const LONG: f64 = 1.2;
 
-/// How near a vertex may come to another, as part of the length aimed at or of the shortest side, squared: in places where triangles
-/// come out well, and in the middle of the longest side.
+/// How near a vertex may come to another, as part of the length aimed at or of the shortest side, squared: in places
+/// where triangles come out well, and in the middle of the longest side.
 const NEAR_SQ: [f64; 2] = [0.4, 0.05];
 
 /// Repairs of angles that a vertex made for size may ask for.
@@ -58,9 +59,9 @@ impl Refiner<'_> {
         Ok(())
     }
 
-    /// Moves each free vertex to the mean of the circumcentres around it, so that edges become more alike, unless a triangle becomes
-    /// too large or turns over. Source: Chen, "Mesh smoothing schemes based on optimal Delaunay triangulations", 13th
-    /// International Meshing Roundtable, 2004.
+    /// Moves each free vertex to the mean of the circumcentres around it, so that edges become more alike, unless a
+    /// triangle becomes too large or turns over. Source: Chen, "Mesh smoothing schemes based on optimal Delaunay
+    /// triangulations", 13th International Meshing Roundtable, 2004.
     fn smooth(&mut self, size: &dyn Size) {
         for v in 0..self.mesh.pos.len() as u32 {
             if self.mesh.kind[v as usize] != Kind::Free {
@@ -83,7 +84,8 @@ impl Refiner<'_> {
         }
     }
 
-    /// The mean of the circumcentres of the triangles around a vertex, each with its area in squares of the length aimed at there.
+    /// The mean of the circumcentres of the triangles around a vertex, each with its area in squares of the length aimed
+    /// at there. Not finite where any length will do.
     fn mean_of_centres(&self, star: &Cavity, old: DVec2) -> DVec2 {
         let (mut sum, mut all) = (DVec2::ZERO, 0.0);
         for i in 0..star.len() {
@@ -154,8 +156,8 @@ impl Refiner<'_> {
         sides.into_iter().any(|(c, n)| n > 1.0 && (self.split_at(c, (0.5 * n).floor() / n) || self.split(c)))
     }
 
-    /// Places for a vertex in a triangle, the preferred one first, and how near they may be to another vertex: in front of the
-    /// shortest side, the circumcentre, the middle of the longest side.
+    /// Places for a vertex in a triangle, the preferred one first, and how near they may be to another vertex: in front
+    /// of the shortest side, the circumcentre, the middle of the longest side.
     fn places_for_size(&self, t: u32) -> [(DVec2, f64); 3] {
         let p = self.mesh.corners(t);
         let length_sq = |i: usize| p[i].distance_squared(p[(i + 1) % 3]);
@@ -174,6 +176,7 @@ impl Refiner<'_> {
         ]
     }
 
+    /// How long edges around a place are to be.
     pub(super) fn aim_at(&self, p: DVec2) -> f64 {
         AIM * self.size.map_or(f64::INFINITY, |size| size.aim(p))
     }
