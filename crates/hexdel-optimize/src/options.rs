@@ -54,6 +54,8 @@ pub struct Options {
     /// Whether a mesh with segments is returned as it is when angles are left outside
     /// the bounds before removals. By default vertices are removed all the same.
     pub bounds_first: bool,
+    /// A pass of removals that takes less than one triangle of so many is the last; 0 is for all passes.
+    pub worth: usize,
 }
 
 impl Options {

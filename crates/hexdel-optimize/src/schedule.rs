@@ -157,9 +157,6 @@ const BATCH: usize = 8;
 /// all together may take, and none has enough.
 const FEW: usize = 60;
 
-/// Where sizes are limited, a pass of removals that takes less than one triangle of so many is the last.
-const WORTH: usize = 100;
-
 /// The same as one of so many.
 const RARE: usize = 1000;
 
@@ -338,14 +335,15 @@ impl<'a> Run<'a> {
 
     fn decimate(&mut self, from: usize, to: usize) -> Result<(), Stop> {
         self.guard = self.sizing;
-        let is_limited = self.divides.is_some() || self.rules.limits_areas();
         for (&pass, i) in PASSES[from..to].iter().zip(from..) {
             let before = self.soup.tris.len();
             self.round(|work| {
                 repair::moves(work, i);
                 decimate(work, pass);
             })?;
-            if is_limited && before.saturating_sub(self.soup.tris.len()) < before / WORTH {
+            if before.saturating_sub(self.soup.tris.len())
+                < before.checked_div(self.options.worth).unwrap_or(0)
+            {
                 break;
             }
         }

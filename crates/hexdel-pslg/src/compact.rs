@@ -29,6 +29,8 @@ pub(crate) struct Kept<'a> {
     pub(crate) strict: bool,
     /// Whether vertices are only taken out of a net that keeps its bounds.
     pub(crate) bounds_first: bool,
+    /// A pass of removals that takes less than one triangle of so many is the last; 0 is for all passes.
+    pub(crate) worth: usize,
     pub(crate) deadline: &'a Deadline,
 }
 
@@ -57,6 +59,7 @@ pub(crate) fn compact(
     let mut options = Options::new(kept.judge.far, effort);
     options.budget = kept.deadline.left();
     options.bounds_first = kept.bounds_first;
+    options.worth = kept.worth;
     let mesh = taken.mesh.clone();
     let made = match optimize_constrained(mesh, &taken.vertex_kinds(), &constraints, &options, monitor) {
         Ok(made) => made,

@@ -45,6 +45,9 @@ const GROWN_RADII: f64 = 1.5;
 /// came out.
 const MOST_LEFT: usize = 24;
 
+/// Of a mesh that has grown to a size, a pass of removals that takes less than one triangle of so many is the last.
+const WORTH: usize = 100;
+
 /// The upper bound that growth keeps, degrees.
 const RIGHT_DEG: f64 = 90.0;
 
@@ -395,9 +398,12 @@ impl<'a> Mesher<'a> {
         if judged && left.iter().filter(|&&t| is_left(t)).count() > MOST_LEFT {
             return Ok(None);
         }
+        if self.limits.is_none() {
+            return compact(net, &self.kept(), effort, monitor).map(Some);
+        }
         // With sizes there is little to remove.
-        let effort = if self.limits.is_some() && effort == Effort::Fast { Effort::Repair } else { effort };
-        compact(net, &self.kept(), effort, monitor).map(Some)
+        let effort = if effort == Effort::Fast { Effort::Repair } else { effort };
+        compact(net, &Kept { worth: WORTH, ..self.kept() }, effort, monitor).map(Some)
     }
 
     /// The corners of a hexagon around the input, whose circumradius is so many radii of that.
@@ -471,6 +477,7 @@ impl<'a> Mesher<'a> {
             limits: self.limits.as_ref(),
             strict: false,
             bounds_first: true,
+            worth: 0,
             deadline: self.deadline,
         }
     }
