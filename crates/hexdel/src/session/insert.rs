@@ -75,7 +75,7 @@ impl Session {
     }
 
     /// Puts points in for which changes nearby did not soon make room: meshes all anew and, where that fails, searches
-    /// on nearby.
+    /// on nearby, then in a larger domain.
     fn insert_with_changes_elsewhere(
         &mut self,
         points: &[DVec2],
@@ -84,12 +84,12 @@ impl Session {
         let before = self.points.len();
         let anew = match self.frame.clone() {
             Some(frame) => self.insert_by_remeshing_graph(&frame, points, at),
-            None => self.insert_by_remeshing(points),
+            None => self.insert_anew(points, self.radius),
         };
         if anew.is_err() && self.insert_nearby(points, LiveMesh::insert).is_ok() {
             return Ok(self.inserted(before));
         }
-        anew
+        self.or_in_larger_domain(anew, points)
     }
 
     /// What the points beyond `before`, which are in, have come to.

@@ -22,7 +22,17 @@ const MORE: f64 = 1.05;
 impl Session {
     /// Meshes all points anew, with more, in a larger domain where this one has too little room and grows.
     pub(super) fn insert_by_remeshing(&mut self, points: &[DVec2]) -> Result<Outcome, SessionError> {
-        match self.insert_anew(points, self.radius) {
+        let anew = self.insert_anew(points, self.radius);
+        self.or_in_larger_domain(anew, points)
+    }
+
+    /// What meshing anew has come to; where this domain has too little room and grows, what it comes to in a larger one.
+    pub(super) fn or_in_larger_domain(
+        &mut self,
+        anew: Result<Outcome, SessionError>,
+        points: &[DVec2],
+    ) -> Result<Outcome, SessionError> {
+        match anew {
             Err(SessionError::Mesh(Error::DomainTooSmall { least, .. })) if self.grows => {
                 self.insert_by_growing(points, least.max(2.0 * self.radius))
             }
@@ -30,7 +40,8 @@ impl Session {
         }
     }
 
-    fn insert_anew(&mut self, points: &[DVec2], radius: f64) -> Result<Outcome, SessionError> {
+    /// Meshes all points anew, with more, in a domain of this radius.
+    pub(super) fn insert_anew(&mut self, points: &[DVec2], radius: f64) -> Result<Outcome, SessionError> {
         let (ids, mut all) = self.present();
         for &at in points {
             if !at.is_finite() {
