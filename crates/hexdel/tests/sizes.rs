@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
-use hexdel::{DVec2, Error, Mesher, Method, Raster, Size, SizeError, generate, triangle_fits};
+use hexdel::{DVec2, Effort, Error, Mesher, Method, Raster, Size, SizeError, generate, triangle_fits};
 
 fn sizes() -> Vec<(&'static str, Size)> {
     let raster = Raster {
@@ -91,4 +91,16 @@ fn a_size_that_asks_for_nothing_changes_nothing() {
     let plain = Mesher::new().triangulate(&points).unwrap();
     let sized = Mesher::new().size(Size::constant(1e6).unwrap()).triangulate(&points).unwrap();
     assert_eq!(plain.mesh, sized.mesh);
+}
+
+/// Of a fine grid the first passes of removals take next to nothing, the later ones half of the triangles.
+#[test]
+fn removals_go_on_where_the_first_of_them_take_little() {
+    let points = [DVec2::new(0.44, 0.03), DVec2::new(0.68, 0.64)];
+    let count = |effort| {
+        let mesher = Mesher::new().effort(effort).size(Size::constant(0.04).unwrap());
+        mesher.triangulate(&points).unwrap().mesh.triangles.len()
+    };
+    let [fast, standard] = [Effort::Fast, Effort::Standard].map(count);
+    assert!(3 * standard < 2 * fast, "{standard} instead of {fast} triangles");
 }
