@@ -5,7 +5,9 @@
 //! to where its whole star is within the bounds, several vertices moved at once, a vertex inserted. Vertices are added only
 //! where bounds ask for them, unlike in a mesh of the grid, which is fine first and thinned afterwards.
 //!
-//! The crate knows meshes, segments and bounds, and no hexagons. That growth succeeds is not proved: triangles that are left
+//! Where sizes are limited ([`Size`]) the plane is filled to them first.
+//!
+//! The crate knows meshes, segments, bounds and sizes, and no hexagons. That growth succeeds is not proved: triangles that are left
 //! out of the bounds are listed in [`Grown::left`], and work is limited. `docs/growing.md` says how it works in detail.
 //!
 //! | module | what |

@@ -110,11 +110,11 @@ impl<'a> Limits<'a> {
     /// The triangles of a mesh that are larger than allowed where their
     /// centroids lie, or have an edge longer than allowed.
     pub(crate) fn exceeded(&self, net: &Net) -> Vec<u32> {
-        net.alive().filter(|&t| self.excess(net.corners(t)).is_some()).collect()
+        net.alive().filter(|&t| self.exceeded_by(net.corners(t)).is_some()).collect()
     }
 
     /// What a triangle exceeds.
-    pub(crate) fn excess(&self, corners: [DVec2; 3]) -> Option<Reason> {
+    pub(crate) fn exceeded_by(&self, corners: [DVec2; 3]) -> Option<Reason> {
         let [a, b, c] = corners;
         let (area, limit) = (0.5 * (b - a).perp_dot(c - a), self.area_at((a + b + c) / 3.0));
         if area > limit {

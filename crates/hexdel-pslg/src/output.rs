@@ -302,7 +302,7 @@ fn exceptions(net: &Net, parts: &Parts<'_>, numbers: &Numbers) -> (Vec<Exception
     failed.extend(
         net.alive()
             .filter(|t| large.contains(t) && !parts.judge.is_out(net, *t))
-            .filter_map(|t| Some(entry(t, parts.limits?.excess(net.corners(t))?))),
+            .filter_map(|t| Some(entry(t, parts.limits?.exceeded_by(net.corners(t))?))),
     );
     let narrow = |t: u32| {
         let (sector, _) = parts.sectors.near(net.corners(t))?;
