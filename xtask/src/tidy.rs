@@ -21,8 +21,36 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("hexdel-plot", &["hexdel-geom"]),
     ("hexdel-io", &["hexdel-plot", "hexdel-geom"]),
     (
+        "hexdel-mesher",
+        &[
+            "hexdel-geom",
+            "hexdel-grid",
+            "hexdel-classify",
+            "hexdel-refine",
+            "hexdel-optimize",
+            "hexdel-grow",
+            "hexdel-pslg",
+            "hexdel-plot",
+            "hexdel-io",
+        ],
+    ),
+    (
+        "hexdel-session",
+        &[
+            "hexdel-mesher",
+            "hexdel-geom",
+            "hexdel-grid",
+            "hexdel-classify",
+            "hexdel-refine",
+            "hexdel-optimize",
+            "hexdel-pslg",
+        ],
+    ),
+    (
         "hexdel",
         &[
+            "hexdel-session",
+            "hexdel-mesher",
             "hexdel-geom",
             "hexdel-grid",
             "hexdel-classify",
@@ -152,7 +180,8 @@ mod tests {
             assert!(example.with_extension("rs").exists(), "{command}");
             found.push(name);
         }
-        let alone = ["grid", "classify", "refine", "optimize", "grow", "pslg", "plot", "io"];
+        let alone =
+            ["grid", "classify", "refine", "optimize", "grow", "pslg", "plot", "io", "mesher", "session"];
         assert!(alone.iter().all(|name| found.contains(&format!("hexdel-{name}"))), "{found:?}");
     }
 

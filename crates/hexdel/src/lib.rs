@@ -21,10 +21,13 @@
 //! [`triangulate_pslg`] meshes PSLGs of points and segments, with holes and
 //! regions, at 30 to 90 degrees along the segments.
 //!
-//! [`Mesher`] has the options. This crate holds no algorithm. It has the types of its signatures, and the modules
+//! [`Mesher`] has the options. This crate is a facade: it gathers the crates below under one name, with test points
+//! ([`generate`]). It has the types of their signatures, and the modules
 //!
 //! | module | what |
 //! |---|---|
+//! | [`mesher`], [`size`], [`triangulation`], [`error`] | options, sizes, results, errors |
+//! | [`session`] | meshes that points are put into and taken out of |
 //! | [`geom`] | points, meshes, exact predicates, the certificate |
 //! | [`pslg`] | segments, holes, regions and polygons |
 //! | [`io`] | formats of points and meshes, with the feature `io` |
@@ -34,6 +37,8 @@
 //!
 //! | crate | what |
 //! |---|---|
+//! | [`hexdel_mesher`] | points and PSLGs to meshes: options, sizes, errors |
+//! | [`hexdel_session`] | sessions |
 //! | [`hexdel_grid`] | the adaptive hexagon grid |
 //! | [`hexdel_classify`] | classes of hexagons, templates, the dual mesh |
 //! | [`hexdel_refine`] | the rules engine |
@@ -59,25 +64,9 @@ struct Readme;
 #[doc = include_str!("../../../docs/guide.md")]
 struct Guide;
 
-mod compact;
-mod dual_edges;
-pub mod error;
-mod fault;
 pub mod generate;
-mod graph;
-pub mod mesher;
-#[cfg(feature = "plot")]
-pub mod picture;
-mod placement;
-pub mod session;
-mod shortest;
-pub mod size;
-mod sized;
 #[cfg(feature = "spade")]
 pub mod spade;
-mod start;
-pub mod triangulation;
-mod workers;
 
 pub use hexdel_geom as geom;
 #[cfg(feature = "io")]
@@ -86,14 +75,23 @@ pub use hexdel_io as io;
 pub use hexdel_plot as plot;
 pub use hexdel_pslg as pslg;
 
-pub use dual_edges::MOST_DUAL_EDGE;
-pub use error::Error;
-pub use fault::Fault;
-pub use graph::prepare::PreparedPslg;
-pub use graph::report::{Corner, ExceptionEntry, PslgReport, RepairEntry, WarningEntry};
-pub use graph::result::PslgTriangulation;
-pub use graph::warning::Warning;
-pub use graph::{Domain, Overlaps, triangulate_pslg};
+#[doc(inline)]
+#[cfg(feature = "plot")]
+pub use hexdel_mesher::picture;
+#[doc(inline)]
+pub use hexdel_mesher::{
+    Corner, Domain, Error, ExceptionEntry, Fault, MOST_DUAL_EDGE, Mesher, Method, Overlaps, Patch,
+    PreparedPslg, PslgReport, PslgTriangulation, RepairEntry, Report, Seconds, Size, SizeError, Start,
+    Triangulation, Warning, WarningEntry, WaveRule, error, mesher, size, triangulate, triangulate_pslg,
+    triangulation,
+};
+#[doc(inline)]
+pub use hexdel_session as session;
+#[doc(inline)]
+pub use hexdel_session::{
+    AnySession, Outcome, PointId, Session, SessionCheck, SessionError, SessionMesh, TemplateSession,
+};
+
 pub use hexdel_classify::hexagons::Hexagon;
 pub use hexdel_classify::{Class, DualError};
 pub use hexdel_geom::{
@@ -104,9 +102,3 @@ pub use hexdel_optimize::live::{Delta, LiveError, StateError};
 pub use hexdel_optimize::{Effort, OptimizeError, SIZE_TOLERANCE, Sizing, triangle_fits};
 pub use hexdel_pslg::SegmentMethod;
 pub use hexdel_refine::RefineError;
-pub use mesher::{Mesher, Method, Start, triangulate};
-pub use session::{
-    AnySession, Outcome, PointId, Session, SessionCheck, SessionError, SessionMesh, TemplateSession,
-};
-pub use size::{Size, SizeError, WaveRule};
-pub use triangulation::{Patch, Report, Seconds, Triangulation};
