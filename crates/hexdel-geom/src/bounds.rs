@@ -1,23 +1,25 @@
 //! The interval that every angle of a mesh is promised to lie in.
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// An interval of angles, in degrees.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Interval")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Interval"))]
 pub struct AngleBounds {
     min_deg: f64,
     max_deg: f64,
 }
 
 /// What bounds are read as, before they are checked.
-#[derive(Deserialize)]
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
 struct Interval {
     min_deg: f64,
     max_deg: f64,
 }
 
+#[cfg(feature = "serde")]
 impl TryFrom<Interval> for AngleBounds {
     type Error = BoundsError;
 
@@ -176,6 +178,7 @@ mod tests {
         assert!((exact - AngleBounds::EXACT_MIN_DEG).abs() < 1e-13);
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn what_is_read_is_checked() {
         let read = |min: f64, max: f64| {

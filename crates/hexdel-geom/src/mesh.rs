@@ -1,16 +1,17 @@
 //! An indexed triangle mesh.
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
 
 /// Index of a vertex in [`TriMesh::vertices`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct VertexId(u32);
 
 /// Index of a triangle in [`TriMesh::triangles`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct TriangleId(u32);
 
 macro_rules! id {
@@ -43,7 +44,8 @@ id!(TriangleId, "triangle");
 /// The container promises nothing about the triangles; whoever needs a
 /// promise computes a certificate. Corners are listed counter-clockwise by
 /// everything in this workspace that makes a mesh.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TriMesh {
     /// Positions, in the units of the input.
     pub vertices: Vec<DVec2>,
@@ -65,7 +67,8 @@ impl TriMesh {
 }
 
 /// An edge of a mesh that has a marker: on an input segment or on the boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MarkedEdge {
     /// Its ends, in the direction of the segment.
     pub ends: [VertexId; 2],

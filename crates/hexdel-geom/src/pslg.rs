@@ -6,7 +6,6 @@
 //! is for whoever triangulates it; only the array layout is checked here.
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// A planar straight-line graph.
@@ -28,8 +27,9 @@ use thiserror::Error;
 /// square.segments = vec![[0, 1], [1, 2], [2, 3], [3, 0]];
 /// assert_eq!(square.check_layout(), Ok(()));
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct Pslg {
     /// Positions, in the units of the input.
     pub points: Vec<DVec2>,
@@ -41,7 +41,7 @@ pub struct Pslg {
     pub regions: Vec<Region>,
     /// Areas with an attribute and, at will, a size limit, given by their
     /// borders. If there are any, what none of them covers is outside.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub polygons: Vec<Polygon>,
     /// A marker of each point; empty if there are none.
     pub point_markers: Vec<i32>,
@@ -54,7 +54,8 @@ pub struct Pslg {
 }
 
 /// A part of the plane bounded by segments, named by a point inside.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Region {
     /// A point inside the region.
     pub point: DVec2,
@@ -71,7 +72,8 @@ pub struct Region {
 /// number of times. So a ring may touch itself, and neither the order of its
 /// segments nor their direction matters. Unlike a [`Region`], a polygon is not
 /// divided by other segments that pass through it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Polygon {
     /// The outer ring, then those of its holes, each as indices of
     /// [`Pslg::segments`]. Rings are closed.
@@ -79,7 +81,7 @@ pub struct Polygon {
     /// What the triangles of the polygon are to be labelled with.
     pub attribute: f64,
     /// The largest triangle area wanted, in square units of the input.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub max_area: Option<f64>,
 }
 

@@ -13,7 +13,6 @@
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
-use serde::Serialize;
 
 use crate::incidence::Incidence;
 use crate::mesh::{TriMesh, VertexId};
@@ -26,7 +25,8 @@ use crate::predicates::orient2d;
 const LAST_PLACES: f64 = 4.0;
 
 /// What [`check_segments`] found.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct SegmentCheck {
     /// How many segments were looked for.
@@ -37,7 +37,7 @@ pub struct SegmentCheck {
     pub missing: Vec<MissingSegment>,
     /// The edges that segments consist of, as far as they could be followed:
     /// each with its lower vertex first, sorted, once.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub edges: Vec<[VertexId; 2]>,
 }
 
@@ -49,7 +49,8 @@ impl SegmentCheck {
 }
 
 /// A segment that is no union of edges.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct MissingSegment {
     /// Its index.

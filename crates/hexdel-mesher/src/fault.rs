@@ -6,7 +6,6 @@ use hexdel_geom::{DVec2, PointsError, PslgLayoutError};
 #[cfg(feature = "io")]
 use hexdel_io::ReadError;
 use hexdel_pslg::{Feature, PslgError, ValidateError};
-use serde::Serialize;
 
 /// What an error is about, as [`Error::fault`] and its like say. Its text says it for people.
 ///
@@ -18,7 +17,8 @@ use serde::Serialize;
 /// assert_eq!((fault.kind, fault.item), ("too_close", Some("point")));
 /// assert_eq!((fault.index, fault.location), (vec![0, 1], Some(DVec2::ZERO)));
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Fault {
     /// What is wrong, in a word that stays.

@@ -5,7 +5,6 @@ use crate::start::{Gridded, Start};
 use hexdel_classify::hexagons::{Hexagon, hexagons};
 use hexdel_geom::certificate::DualCheck;
 use hexdel_geom::{Certificate, DVec2, TriMesh, VertexId, Voronoi, VoronoiSummary};
-use serde::Serialize;
 
 /// A certified mesh of points.
 #[derive(Clone, Debug)]
@@ -49,7 +48,8 @@ pub struct Patch {
 }
 
 /// Seconds of wall time by phase.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Seconds {
     /// Checking the input and refining the grid.
     pub refine: f64,
@@ -62,7 +62,8 @@ pub struct Seconds {
 }
 
 /// The figures of a mesh, for a file or a pipe.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Report<'a> {
     /// How the mesh was made.
     pub method: &'static str,
@@ -71,15 +72,15 @@ pub struct Report<'a> {
     /// Whether optimisation ended because its time did.
     pub budget_spent: bool,
     /// All that the certificate says.
-    #[serde(flatten)]
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub certificate: &'a Certificate,
     /// What its Voronoi dual is like.
     pub dual: Option<VoronoiSummary>,
     /// What was found of its edges, if a bound was given.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub dual_edges: Option<&'a DualCheck>,
     /// The longest edge over the length wanted there, if any was.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub size_ratio: Option<f64>,
     /// Levels used below the coarsest.
     pub max_level: u8,

@@ -113,28 +113,6 @@ impl AnySession {
         })
     }
 
-    /// A saved session, of the method that it was saved with.
-    ///
-    /// # Errors
-    ///
-    /// As [`Session::from_ron`].
-    pub fn from_ron(text: &str) -> Result<Self, SessionError> {
-        Ok(if TemplateSession::is_saved_in(text) {
-            TemplateSession::from_ron(text)?.into()
-        } else {
-            Session::from_ron(text)?.into()
-        })
-    }
-
-    /// As [`Session::to_ron`].
-    ///
-    /// # Errors
-    ///
-    /// [`SessionError::CannotSave`] if the size is given by a function.
-    pub fn to_ron(&self) -> Result<String, SessionError> {
-        of_either!(self, session => session.to_ron())
-    }
-
     /// As [`Session::insert`].
     ///
     /// # Errors

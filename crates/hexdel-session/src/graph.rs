@@ -15,7 +15,6 @@ use hexdel_optimize::{Constraints, Sizing, VertexKind, kinds_of};
 use hexdel_pslg::{
     Feature, Reason, RepairReport, SegmentEdge, SegmentMethod, hopeless_pairs, vertex_markers,
 };
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
@@ -26,7 +25,8 @@ const STRAIGHT: f64 = 1e-3;
 const ON_RING: f64 = 1e-9;
 
 /// What does not change in a session of a PSLG.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Frame {
     /// The PSLG. The first points of the session are its points.
     pub(super) graph: Pslg,
@@ -36,16 +36,17 @@ pub(super) struct Frame {
     /// The segment that each of them is a part of.
     segment_of_line: Vec<Option<u32>>,
     /// How many of the lines, the last ones, are edges of fans.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     in_fans: usize,
     /// Whether the domain is what segments enclose, which does not depend on points.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     inside: bool,
     /// Whether it is the convex hull, which points in it do not change.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     hull: bool,
 }
 
+#[cfg(feature = "serde")]
 impl Frame {
     /// Whether the segments are those of a mesh that was read.
     pub(super) fn fits(&self, live: &LiveMesh) -> bool {

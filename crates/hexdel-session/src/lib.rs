@@ -15,7 +15,7 @@
 //! | `domain` | hexagons that grow |
 //! | `templates` | [`TemplateSession`] |
 //! | `any` | [`AnySession`]: either |
-//! | `saved` | sessions as text |
+//! | `saved` | sessions as text, with the feature `serde` |
 //! | `certificate`, `values`, `outcome` | what is kept, values at vertices, what calls answer |
 //! | `error`, `fault` | why a call did nothing, for people and for programs |
 //!
@@ -37,6 +37,7 @@ mod graph;
 mod insert;
 mod outcome;
 mod remesh;
+#[cfg(feature = "serde")]
 mod saved;
 mod templates;
 mod values;

@@ -1,6 +1,6 @@
 //! Sessions as text (RON), to be continued.
 
-use super::{Frame, PointId, Session, SessionError};
+use super::{AnySession, Frame, PointId, Session, SessionError, TemplateSession};
 use hexdel_geom::DVec2;
 use hexdel_mesher::Error;
 use hexdel_mesher::Mesher;
@@ -153,5 +153,32 @@ impl Session {
             }
         }
         Ok(session)
+    }
+}
+
+impl AnySession {
+    /// A saved session, of the method that it was saved with.
+    ///
+    /// # Errors
+    ///
+    /// As [`Session::from_ron`].
+    pub fn from_ron(text: &str) -> Result<Self, SessionError> {
+        Ok(if TemplateSession::is_saved_in(text) {
+            TemplateSession::from_ron(text)?.into()
+        } else {
+            Session::from_ron(text)?.into()
+        })
+    }
+
+    /// As [`Session::to_ron`].
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::CannotSave`] if the size is given by a function.
+    pub fn to_ron(&self) -> Result<String, SessionError> {
+        match self {
+            Self::Compact(session) => session.to_ron(),
+            Self::Templates(session) => session.to_ron(),
+        }
     }
 }

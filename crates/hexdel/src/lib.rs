@@ -50,6 +50,7 @@
 //! | `io` | [`io`]: formats | yes |
 //! | `plot` | [`plot`] and [`picture`]: pictures in SVG | yes |
 //! | `png` | pictures in PNG | yes |
+//! | `serde` | sessions as text; reports, certificates, PSLGs and sizes for serde | yes |
 //! | `spade` | conversions to and from the triangulations of the crate spade | |
 //!
 //! Without features this is a mesher alone, and compiles for `wasm32-unknown-unknown`.

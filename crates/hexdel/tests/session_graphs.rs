@@ -1,6 +1,6 @@
 //! Sessions of PSLGs: segments stay, bounds hold by place, and what is refused.
 
-#![cfg(feature = "io")]
+#![cfg(all(feature = "io", feature = "serde"))]
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 #[path = "common/sessions.rs"]

@@ -1,5 +1,7 @@
 //! Sessions keep the options they were made with, or refuse them by name.
 
+#![cfg(feature = "serde")]
+
 use hexdel::generate::{Kind, generate};
 use hexdel::{
     AngleBounds, AnySession, DVec2, Domain, Effort, Error, Mesher, Method, Pslg, Session, SessionError, Size,

@@ -1,7 +1,7 @@
 //! Sessions of templates: what holds after every call, and what a call that
 //! fails leaves.
 
-#![cfg(feature = "io")]
+#![cfg(all(feature = "io", feature = "serde"))]
 #![expect(clippy::unwrap_used, reason = "a test that cannot run fails")]
 
 #[path = "common/sessions.rs"]

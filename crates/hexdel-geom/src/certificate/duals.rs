@@ -21,7 +21,6 @@
 use glam::DVec2;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
-use serde::Serialize;
 
 use super::triangles::rounding_slack_deg;
 use super::{ANGLE_TOLERANCE_DEG, CHUNK};
@@ -42,7 +41,8 @@ pub fn max_angle_of_ratio(ratio: f64) -> f64 {
 }
 
 /// An edge, and the length of the dual edge that crosses it over its own.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DualEdge {
     /// Its vertices, the lower index first.
     pub edge: [VertexId; 2],
@@ -56,7 +56,8 @@ pub struct DualEdge {
 }
 
 /// What [`check_dual_edges`] found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct DualCheck {
     /// The bound that ratios were held against.

@@ -54,7 +54,6 @@ mod topology;
 pub(crate) mod triangles;
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
 
 use crate::bounds::AngleBounds;
 use crate::mesh::{TriMesh, TriangleId, VertexId};
@@ -122,7 +121,8 @@ impl Default for CertifyOptions<'_> {
 }
 
 /// One thing wrong with a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Violation {
     /// A corner is no vertex of the mesh.
@@ -239,7 +239,8 @@ pub enum Violation {
 ///
 /// Angles are in degrees, lengths in the units of the mesh. Extremes of a mesh
 /// without a finite triangle are 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 #[expect(clippy::struct_excessive_bools, reason = "each is a finding of its own")]
 pub struct Certificate {

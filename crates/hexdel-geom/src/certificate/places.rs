@@ -16,7 +16,6 @@
 use glam::DVec2;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
-use serde::Serialize;
 
 use super::CHUNK;
 use super::triangles::{Fit, check_angles};
@@ -48,7 +47,8 @@ pub struct Promises<'a> {
 }
 
 /// A triangle that does not keep what is promised where it lies.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BrokenPromise {
     /// The triangle.
     pub triangle: TriangleId,
@@ -59,7 +59,8 @@ pub struct BrokenPromise {
 }
 
 /// A promise that is not kept.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum Promise {
     /// The bounds of far triangles.
@@ -86,7 +87,8 @@ pub enum Promise {
 }
 
 /// What [`check_promises`] found.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct PlaceCheck {
     /// How many triangles are far; 0 if nothing was promised of them.

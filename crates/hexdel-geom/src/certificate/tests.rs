@@ -82,6 +82,7 @@ fn each_fault_alone_and_all_together_fail() {
     }
 }
 
+#[cfg(feature = "serde")]
 #[test]
 fn survives_json() {
     let mut m = sound();

@@ -29,7 +29,6 @@ use crate::mesh::{TriMesh, TriangleId, VertexId};
 use cell::Leak;
 use glam::DVec2;
 use rayon::prelude::*;
-use serde::Serialize;
 use thiserror::Error;
 
 /// Why a mesh has no dual.
@@ -59,7 +58,8 @@ pub enum VoronoiError {
 }
 
 /// An edge of the mesh and the edge of the dual that crosses it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VoronoiEdge {
     /// Its vertices, the lower index first.
     pub ends: [VertexId; 2],
@@ -121,7 +121,8 @@ pub struct Voronoi<'a> {
 }
 
 /// What a dual is like.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VoronoiSummary {
     /// The shortest edge of the dual, input units. Zero between two triangles
     /// whose right angles lie on a common circle.

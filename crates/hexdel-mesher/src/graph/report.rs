@@ -6,13 +6,13 @@ use crate::triangulation::Seconds;
 use hexdel_geom::certificate::DualCheck;
 use hexdel_geom::{AngleBounds, Certificate, DVec2, Pslg, Voronoi, VoronoiSummary};
 use hexdel_pslg::{Exception, Reason, Repair, SegmentMethod};
-use serde::Serialize;
 
 /// The figures of a PSLG's mesh.
 ///
 /// Points and segments are counted as in [`PslgTriangulation::graph`], those in
 /// `repairs` as given.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct PslgReport<'a> {
     /// How segments came into the mesh.
@@ -22,7 +22,7 @@ pub struct PslgReport<'a> {
     /// Whether everything that was asked for is so, up to exempt corners.
     pub holds: bool,
     /// All that the certificate says.
-    #[serde(flatten)]
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub certificate: &'a Certificate,
     /// The bounds of triangles two edges or more away from points and segments.
     pub far_bounds: AngleBounds,
@@ -34,7 +34,7 @@ pub struct PslgReport<'a> {
     /// point.
     pub dual: Option<VoronoiSummary>,
     /// What was found of its edges, if a bound was given.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub dual_edges: Option<&'a DualCheck>,
     /// How many segments there are.
     pub segments: usize,
@@ -64,7 +64,8 @@ pub struct PslgReport<'a> {
 
 /// A triangle that does not keep its bounds, or is larger or longer than
 /// allowed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct ExceptionEntry {
     /// Its index.
@@ -88,7 +89,8 @@ pub struct ExceptionEntry {
 }
 
 /// A corner of the input between two segments that is narrower than the bound.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Corner {
     /// The point where the segments meet.
     pub point: u32,
@@ -99,7 +101,8 @@ pub struct Corner {
 }
 
 /// One thing that repair did.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct RepairEntry {
     /// What, in words.
@@ -109,7 +112,8 @@ pub struct RepairEntry {
 }
 
 /// Something to know about the PSLG.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct WarningEntry {
     /// What, in words.

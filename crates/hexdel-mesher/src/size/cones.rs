@@ -3,20 +3,20 @@
 
 use super::SizeError;
 use hexdel_geom::DVec2;
-use serde::{Deserialize, Serialize};
 
 /// Points below one node at which the tree ends.
 const LEAF: usize = 8;
 
 /// The cones.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Cones {
     slope: f64,
     /// In the order of the tree: a node's range is halved at its middle.
     points: Vec<(DVec2, f64)>,
     /// Box and least size of each node's range; the children of node `i` are
     /// `2 i + 1` and `2 i + 2`. Follows from `points`.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     nodes: Vec<Node>,
 }
 

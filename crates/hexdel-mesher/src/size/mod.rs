@@ -13,7 +13,6 @@ use cones::Cones;
 use hexdel_geom::{DVec2, Raster};
 use hexdel_optimize::Sizing;
 use raster::Field;
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 use thiserror::Error as ThisError;
@@ -115,20 +114,22 @@ pub const GRADATION: f64 = 0.5;
 /// assert!(made.size_ratio.is_some_and(|ratio| ratio <= 1.0 + 1e-9));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Size {
     gradation: f64,
     parts: Vec<Part>,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Part {
     Constant(f64),
     /// A simple polygon, in either direction, its size and the gradation.
     Polygon(Vec<DVec2>, f64, f64),
     Points(Cones),
     Raster(Field),
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     Function(Function),
 }
 

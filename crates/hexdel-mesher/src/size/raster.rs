@@ -3,10 +3,10 @@
 
 use super::SizeError;
 use hexdel_geom::{DVec2, Raster};
-use serde::{Deserialize, Serialize};
 
 /// The smoothed raster.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Field {
     columns: usize,
     rows: usize,

@@ -6,7 +6,6 @@
 
 use super::{Part, Size, SizeError};
 use hexdel_geom::Raster;
-use serde::Serialize;
 
 /// The acceleration of a fall, metres in a second squared.
 pub const GRAVITY: f64 = 9.81;
@@ -18,7 +17,8 @@ pub const TIDE: f64 = 44_714.16;
 pub const PER_WAVELENGTH: f64 = 30.0;
 
 /// Edges of `sqrt(g depth) T / N`, no shorter and no longer than two lengths. Depths are metres, and so are lengths.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct WaveRule {
     /// The time `T` that a wave takes to pass, seconds.

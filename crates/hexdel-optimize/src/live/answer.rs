@@ -2,7 +2,6 @@
 //! way back.
 
 use hexdel_geom::{DVec2, TriMesh, VertexId};
-use serde::Serialize;
 
 use crate::live::LiveMesh;
 use crate::live::store::{Triangle, Undo, Vertex};
@@ -11,7 +10,8 @@ use crate::mesh::NONE;
 
 /// What a change did to the mesh, by serial numbers, which are never used
 /// again. Ascending.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Delta {
     /// Vertices that are gone.

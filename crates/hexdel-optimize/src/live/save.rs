@@ -1,7 +1,6 @@
 //! The state of a live mesh as plain data, to be written and read.
 
 use hexdel_geom::{AngleBounds, DVec2, TriMesh, VertexId};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::constraints::{Constraints, Line, NOWHERE, POINT};
@@ -14,7 +13,8 @@ use crate::mesh::{Motion, NONE, Soup};
 use crate::options::VertexKind;
 
 /// All that a [`LiveMesh`] depends on, but for its sizing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LiveState {
     bounds: AngleBounds,
     /// Serial numbers given out last, of vertices and of triangles.
@@ -25,12 +25,13 @@ pub struct LiveState {
     vertices: Vec<Option<VertexState>>,
     /// Serial number and corners.
     triangles: Vec<Option<(u64, [u32; 3])>>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     segments: Option<SegmentState>,
 }
 
 /// What a mesh with segments has besides.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct SegmentState {
     near: AngleBounds,
     /// Ends of each.
@@ -47,10 +48,12 @@ struct SegmentState {
 
 /// Serial number, position, kind, angle of the domain, a triangle at the
 /// vertex, size of the patches in which its removal failed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct VertexState(u64, DVec2, Kind, f64, u32, u8);
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Kind {
     Fixed,
     Along(DVec2),

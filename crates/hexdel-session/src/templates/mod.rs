@@ -18,6 +18,7 @@ mod grown;
 mod laid;
 mod orders;
 mod patch;
+#[cfg(feature = "serde")]
 mod saved;
 mod view;
 
@@ -73,6 +74,7 @@ pub struct TemplateSession {
     /// Whether the domain grows for points outside of it.
     grows: bool,
     /// The options it was made with, and the threads that work as they say.
+    #[cfg_attr(not(feature = "serde"), expect(dead_code, reason = "sessions as text have them"))]
     options: Mesher,
     workers: Workers,
     /// What undoes the last calls, the last one at the end.
