@@ -4,8 +4,8 @@
 //! Hoey, "Closest-point problems", 1975): the worst case is the common case,
 //! whatever the input looks like.
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::slice::ParallelSliceMut;
 
 use crate::scale::{max_abs, scale_to};
 

@@ -21,8 +21,8 @@
 
 use std::collections::VecDeque;
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 

@@ -15,7 +15,8 @@
 //! Triangles with a corner that is no vertex, or the same corner twice, are
 //! left out.
 
-use rayon::prelude::*;
+use crate::par::current_num_threads;
+use crate::par::prelude::*;
 
 use crate::mesh::{TriMesh, VertexId};
 
@@ -65,7 +66,7 @@ impl Incidence {
     /// `u32::MAX`.
     pub(crate) fn new(mesh: &TriMesh) -> Self {
         let n = mesh.vertices.len();
-        let threads = rayon::current_num_threads().clamp(1, MAX_BLOCKS);
+        let threads = current_num_threads().clamp(1, MAX_BLOCKS);
         let block_len = n.div_ceil(threads).clamp(1, MAX_BLOCK_LEN);
         let blocks = (0..n.div_ceil(block_len))
             .into_par_iter()

@@ -30,6 +30,8 @@ pub mod closest_pair;
 pub mod delaunay;
 pub mod mesh;
 pub mod monitor;
+#[doc(hidden)]
+pub mod par;
 pub mod points;
 pub mod predicates;
 pub mod pslg;

@@ -3,8 +3,8 @@
 //! Everything later is entitled to sites that are finite and pairwise
 //! distinct. What the points mean is left to others.
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::slice::ParallelSliceMut;
 use thiserror::Error;
 
 /// Why a list of points is no input.

@@ -6,8 +6,8 @@
 //! place away keeps all angles around the vertex: the angles on its other side
 //! have room. This looks for it.
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 
 use crate::bounds::AngleBounds;
 use crate::certificate::ANGLE_TOLERANCE_DEG;

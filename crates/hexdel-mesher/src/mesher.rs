@@ -189,7 +189,7 @@ impl Mesher {
     }
 
     /// How many threads work, by default as many as the machine has, at most 1024. The mesh
-    /// does not depend on it.
+    /// does not depend on it. Without the feature `rayon` one thread works, however many are asked for.
     ///
     /// ```
     /// # use hexdel::{DVec2, Mesher};

@@ -1,7 +1,7 @@
 //! The threads that work.
 
 use crate::error::Error;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use hexdel_geom::par::Pool;
 use std::sync::Arc;
 
 /// Most threads that may be asked for: more than any machine has use for, and few enough to start.
@@ -9,7 +9,7 @@ pub(crate) const MAX_THREADS: usize = 1024;
 
 /// So many threads as were asked for, or those of whoever calls.
 #[derive(Clone, Debug, Default)]
-pub struct Workers(Option<Arc<ThreadPool>>);
+pub struct Workers(Option<Arc<Pool>>);
 
 impl Workers {
     /// As many as were asked for; those of whoever calls, if none were.
@@ -22,14 +22,14 @@ impl Workers {
             return Ok(Self(None));
         };
         check_threads(threads)?;
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        Ok(Self(Some(Arc::new(pool.map_err(|_| Error::Threads { threads })?))))
+        let pool = Pool::new(threads).ok_or(Error::Threads { threads })?;
+        Ok(Self(Some(Arc::new(pool))))
     }
 
     /// Works on them.
     pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match &self.0 {
-            Some(pool) => pool.install(work),
+            Some(pool) => pool.run(work),
             None => work(),
         }
     }

@@ -1,7 +1,7 @@
 //! From the caller's mesh to arrays, with every promise checked, and back.
 
+use hexdel_geom::par::prelude::*;
 use hexdel_geom::{DVec2, TriMesh, VertexId};
-use rayon::prelude::*;
 
 use crate::constraints::{Constraints, Line, NOWHERE, POINT};
 use crate::error::OptimizeError;

@@ -4,8 +4,9 @@
 use web_time::Instant;
 
 use hexdel_geom::monitor::check;
+use hexdel_geom::par::current_num_threads;
+use hexdel_geom::par::prelude::*;
 use hexdel_geom::{Cancelled, Monitor, Phase, TriMesh};
-use rayon::prelude::*;
 
 use crate::area::{divide_large, divide_left};
 use crate::constraints::{Constraints, Rules};
@@ -445,7 +446,7 @@ impl<'a> Run<'a> {
         let seams = Seams::new(&self.soup, cuts);
         let seed = self.options.seed.wrapping_add((round as u64) << 32);
         let mut parts = Vec::with_capacity(cuts.parts.len());
-        let batch = BATCH * rayon::current_num_threads();
+        let batch = BATCH * current_num_threads();
         for first in (0..cuts.parts.len()).step_by(batch) {
             let idle = match self.look() {
                 Err(Stop::Cancelled(c)) => return Err(Stop::Cancelled(c)),

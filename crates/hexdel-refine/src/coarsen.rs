@@ -20,10 +20,10 @@
 use crate::rule::{RuleSet, Situation};
 use hexdel_classify::View;
 use hexdel_classify::class::{irregular, is_regular};
+use hexdel_geom::par::prelude::*;
 use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Grid, Hex, TileId, Window};
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Merges what no finer level needs in the given tiles of a closed level. Returns

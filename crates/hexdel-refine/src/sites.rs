@@ -4,8 +4,8 @@ use hexdel_classify::Occupant;
 use hexdel_classify::relocate::{RING_STAYS, ring_norm};
 use hexdel_geom::DVec2;
 use hexdel_geom::double_double::Double;
+use hexdel_geom::par::prelude::*;
 use hexdel_grid::{Hex, Lattice, Located, TileId};
-use rayon::prelude::*;
 
 /// An input point in the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]

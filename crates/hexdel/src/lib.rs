@@ -50,6 +50,7 @@
 //! | `io` | [`io`]: formats | yes |
 //! | `plot` | [`plot`] and [`picture`]: pictures in SVG | yes |
 //! | `png` | pictures in PNG | yes |
+//! | `rayon` | work on all threads; without it on one, with the same result | yes |
 //! | `serde` | sessions as text; reports, certificates, PSLGs and sizes for serde | yes |
 //! | `spade` | conversions to and from the triangulations of the crate spade | |
 //!

@@ -2,9 +2,9 @@
 
 use super::layout::Layout;
 use super::{triangles, vertices};
+use hexdel_geom::par::prelude::*;
 use hexdel_geom::{DVec2, TriMesh, VertexId};
 use hexdel_grid::TileId;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Triangles of one task, about: enough work to be worth handing out, and
@@ -26,7 +26,8 @@ pub(super) fn mesh(layout: &Layout) -> TriMesh {
     // afterwards moves nothing.
     let mut vertices = vec![[0.0; 2]; layout.vertices() as usize];
     let mut triangles = vec![[0; 3]; layout.triangles() as usize];
-    tasks(layout, &mut vertices, &mut triangles).into_par_iter().for_each(|task| fill(layout, task));
+    let fill = |task| fill(layout, task);
+    tasks(layout, &mut vertices, &mut triangles).into_par_iter().for_each(fill);
     TriMesh {
         vertices: vertices.into_iter().map(|[x, y]| DVec2::new(x, y)).collect(),
         triangles: triangles

@@ -6,8 +6,8 @@ use super::domain::Domain;
 use super::star;
 use crate::class::Classes;
 use hexdel_geom::VertexId;
+use hexdel_geom::par::prelude::*;
 use hexdel_grid::{Direction, Grid, Hex, TileId};
-use rayon::prelude::*;
 
 /// What a tile is made of, as far as the dual asks, and the part of the mesh
 /// that it owns.

@@ -5,11 +5,11 @@ use super::{Occupant, Relocation, star};
 use crate::exact::Offset;
 use crate::relocate::{relocation, ring_may_stay, ring_shift};
 use hexdel_geom::double_double::Double;
+use hexdel_geom::par::prelude::*;
 use hexdel_geom::{DVec2, VertexId};
 use hexdel_grid::grid::hex_of;
 use hexdel_grid::window::ones;
 use hexdel_grid::{Direction, Hex, Lattice, TileId};
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Places the vertices of a tile by their classes.

@@ -18,8 +18,8 @@
 //! larger than [`max_angle_of_ratio`] none is below the bound. Edges on segments inside the
 //! mesh are edges like all others.
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::triangles::rounding_slack_deg;

@@ -4,8 +4,8 @@
 //! inputs, a bit map over a hash of the coordinates turns nearly all of them
 //! away first.
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::{CHUNK, Violation, note};
 use crate::mesh::TriMesh;

@@ -450,7 +450,7 @@ struct View<'a> {
 
 impl<'a> View<'a> {
     fn new(mesh: &'a TriMesh) -> Self {
-        use rayon::prelude::*;
+        use crate::par::prelude::*;
         let parts: Vec<f64> = mesh.vertices.par_chunks(CHUNK).map(max_abs).collect();
         let max = parts.into_iter().fold(0.0, f64::max);
         // Scaling could take small coordinates to subnormals, so it is kept

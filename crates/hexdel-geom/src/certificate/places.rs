@@ -13,8 +13,8 @@
 //!      1 --- 2 --- 3         only the triangle 2 3 3 and those beyond are far
 //! ```
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::CHUNK;

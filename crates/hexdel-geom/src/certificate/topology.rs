@@ -3,7 +3,7 @@
 //! One pass over the vertices; an edge is looked at from its lower vertex, a
 //! boundary edge from its head.
 
-use rayon::prelude::*;
+use crate::par::prelude::*;
 
 use super::{CHUNK, View, Violation, note};
 use crate::incidence::{Fan, Incidence, NONE};

@@ -6,8 +6,8 @@
 //! comparison with the bounds cost one division; an arc tangent is evaluated
 //! only for triangles near or past a bound and for the extremes of the mesh.
 
+use crate::par::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::{
     ANGLE_TOLERANCE_DEG, CHUNK, CertifyOptions, LENGTH_TOLERANCE, ROUNDING_FACTOR, View, Violation,

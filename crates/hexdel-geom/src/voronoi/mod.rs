@@ -26,9 +26,9 @@ mod tests;
 use crate::certificate::ANGLE_TOLERANCE_DEG;
 use crate::incidence::{Fan, Incidence, NONE, well_formed};
 use crate::mesh::{TriMesh, TriangleId, VertexId};
+use crate::par::prelude::*;
 use cell::Leak;
 use glam::DVec2;
-use rayon::prelude::*;
 use thiserror::Error;
 
 /// Why a mesh has no dual.

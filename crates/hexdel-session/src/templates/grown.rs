@@ -5,6 +5,7 @@ use super::patch::{is_free, settle};
 use crate::{PointId, SessionError};
 use hexdel_classify::{Domain, KeptDual};
 use hexdel_geom::delaunay::restore_constrained_delaunay;
+use hexdel_geom::par::on_a_thread;
 use hexdel_geom::{
     AngleBounds, Certificate, CertifyOptions, DVec2, TriMesh, Unwatched, VertexId, certify, settle_rounding,
 };
@@ -188,9 +189,7 @@ impl Grown {
         gone: (&[usize], bool),
         new: (&[PointId], &[DVec2]),
     ) -> Result<Step, Stuck> {
-        // On one of the threads that work in parallel: handing them many small
-        // tasks from outside would take longer than the tasks.
-        rayon::scope(|_| self.exchange_here(gone, new))
+        on_a_thread(|| self.exchange_here(gone, new))
     }
 
     fn exchange_here(
@@ -286,7 +285,7 @@ impl Grown {
             new <= at(&old, centre) || lattice.spacing(address.level) > new
         };
         let done = self.refiner.drop_wanted(keep);
-        let followed = rayon::scope(|_| self.follow(done, true));
+        let followed = on_a_thread(|| self.follow(done, true));
         match followed {
             Ok(step) => Ok(Step { size: old, ..step }),
             Err(stuck) => {
