@@ -22,12 +22,17 @@
 //! | [`voronoi`] | [`Voronoi`]: circumcentres, cells, control volumes and cotangent weights |
 //! | [`segments`] | [`check_segments`]: whether segments are unions of edges |
 //! | [`pslg`] | [`Pslg`]: points, segments, holes and regions as read |
+//! | [`builder`] | [`PslgBuilder`]: PSLGs of points, lines and polygons by their coordinates |
+//! | `geo` | [`Pslg`] from shapes of the crate `geo-types`, with the feature of that name |
 
 pub mod bounds;
+pub mod builder;
 pub mod certificate;
 pub mod circle;
 pub mod closest_pair;
 pub mod delaunay;
+#[cfg(feature = "geo-types")]
+pub mod geo;
 pub mod mesh;
 pub mod monitor;
 #[doc(hidden)]
@@ -47,6 +52,7 @@ mod incidence;
 mod scale;
 
 pub use bounds::{AngleBounds, BoundsError};
+pub use builder::PslgBuilder;
 pub use certificate::{
     ANGLE_TOLERANCE_DEG, Certificate, CertifyOptions, LENGTH_TOLERANCE, Violation, certify, keeps_bounds,
     keeps_bounds_at,

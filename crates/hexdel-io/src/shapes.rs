@@ -7,13 +7,11 @@
 //! - Markers of points and segments are the number of the first feature that has
 //!   them, counted from 1.
 //! - The height of a point is the first that a geometry gives it.
-//! - Each polygon becomes a [`Polygon`] with the feature's number as attribute.
+//! - Each polygon becomes a [`Polygon`](hexdel_geom::Polygon) with the feature's number as attribute.
 //!
 //! Whether rings cross or polygons overlap is left to whoever meshes the PSLG.
 
-use std::collections::HashMap;
-
-use hexdel_geom::{DVec2, Polygon, Pslg};
+use hexdel_geom::{DVec2, Pslg, PslgBuilder};
 
 use crate::error::ReadError;
 
@@ -89,116 +87,60 @@ impl Features {
 /// Gathers shapes.
 pub(crate) struct GraphBuilder {
     file: String,
-    pslg: Pslg,
+    pslg: PslgBuilder,
     heights: Vec<Option<f64>>,
-    /// The index of each point, by its coordinates' bits.
-    point_of: HashMap<[u64; 2], u32>,
-    /// The index of each segment, by its ends, the smaller first.
-    segments: HashMap<[u32; 2], u32>,
     /// Features so far.
     features: i32,
 }
 
 impl GraphBuilder {
     pub(crate) fn new(file: &str) -> Self {
-        Self {
-            file: file.to_owned(),
-            pslg: Pslg::default(),
-            heights: Vec::new(),
-            point_of: HashMap::new(),
-            segments: HashMap::new(),
-            features: 0,
-        }
+        Self { file: file.to_owned(), pslg: PslgBuilder::new(), heights: Vec::new(), features: 0 }
     }
 
     /// Adds a feature; `line` is named if there are too many.
     pub(crate) fn feature(&mut self, shape: Shape, line: u64) -> Result<(), ReadError> {
         self.features =
             self.features.checked_add(1).ok_or_else(|| self.too_many("features", line, i32::MAX as u64))?;
+        self.pslg.mark(self.features);
         self.shape(shape, line)
     }
 
     fn shape(&mut self, shape: Shape, line: u64) -> Result<(), ReadError> {
         match shape {
-            Shape::Points(points) => {
-                for p in points {
-                    self.point(p, line)?;
-                }
+            Shape::Points(points) => self.points(&points, line).map(drop),
+            Shape::Line(line_string) => {
+                let points = self.points(&line_string, line)?;
+                self.pslg.path(&points);
                 Ok(())
             }
-            Shape::Line(line_string) => self.path(&line_string, line).map(drop),
-            Shape::Polygon(rings) => self.polygon(rings, line),
+            Shape::Polygon(rings) => {
+                let rings = rings.iter().map(|ring| self.points(ring, line)).collect::<Result<_, _>>()?;
+                self.pslg.polygon_of(rings, f64::from(self.features));
+                Ok(())
+            }
             Shape::Collection(shapes) => shapes.into_iter().try_for_each(|shape| self.shape(shape, line)),
         }
     }
 
+    /// Adds points, and says which they are.
+    fn points(&mut self, places: &[Place], line: u64) -> Result<Vec<u32>, ReadError> {
+        places.iter().map(|&place| self.point(place, line)).collect()
+    }
+
     fn point(&mut self, place: Place, line: u64) -> Result<u32, ReadError> {
-        let p = place.at;
-        // Adding a positive zero turns -0.0 into 0.0 and keeps every other value.
-        let key = [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()];
-        if let Some(&index) = self.point_of.get(&key) {
-            let height = &mut self.heights[index as usize];
-            *height = height.or(place.height);
-            return Ok(index);
+        let index = self.pslg.point(place.at);
+        let index = index.map_err(|_| self.too_many("points", line, MAX_POINTS as u64))?;
+        match self.heights.get_mut(index as usize) {
+            Some(height) => *height = height.or(place.height),
+            None => self.heights.push(place.height),
         }
-        if self.pslg.points.len() >= MAX_POINTS {
-            return Err(self.too_many("points", line, MAX_POINTS as u64));
-        }
-        let index = self.pslg.points.len() as u32;
-        self.point_of.insert(key, index);
-        self.pslg.points.push(p);
-        self.heights.push(place.height);
-        self.pslg.point_markers.push(self.features);
         Ok(index)
     }
 
-    /// Adds the segments of a path, and says which they are.
-    fn path(&mut self, points: &[Place], line: u64) -> Result<Vec<u32>, ReadError> {
-        let mut segments = Vec::with_capacity(points.len());
-        let mut before = None;
-        for &p in points {
-            let here = self.point(p, line)?;
-            segments.extend(before.and_then(|before| self.segment(before, here)));
-            before = Some(here);
-        }
-        Ok(segments)
-    }
-
-    /// The segment between two points, unless they are the same.
-    fn segment(&mut self, a: u32, b: u32) -> Option<u32> {
-        if a == b {
-            return None;
-        }
-        let next = self.pslg.segments.len() as u32;
-        let segment = *self.segments.entry([a.min(b), a.max(b)]).or_insert(next);
-        if segment == next {
-            self.pslg.segments.push([a, b]);
-            self.pslg.segment_markers.push(self.features);
-        }
-        Some(segment)
-    }
-
-    fn polygon(&mut self, mut rings: Vec<Vec<Place>>, line: u64) -> Result<(), ReadError> {
-        let mut polygon = Polygon { attribute: f64::from(self.features), ..Polygon::default() };
-        for ring in &mut rings {
-            let [first, last] = [ring.first(), ring.last()].map(|place| place.map(|place| place.at));
-            if first != last {
-                ring.push(ring[0]);
-            }
-            polygon.rings.push(self.path(ring, line)?);
-        }
-        if polygon.rings.first().is_some_and(|outer| outer.len() > 2) {
-            self.pslg.polygons.push(polygon);
-        }
-        Ok(())
-    }
-
     /// The PSLG, with its heights.
-    pub(crate) fn finish(mut self) -> Features {
-        if self.pslg.segments.is_empty() {
-            self.pslg.segment_markers.clear();
-        }
-        Features { pslg: self.pslg, heights: self.heights, are_degrees: false }
+    pub(crate) fn finish(self) -> Features {
+        Features { pslg: self.pslg.finish(), heights: self.heights, are_degrees: false }
     }
 
     fn too_many(&self, section: &'static str, line: u64, limit: u64) -> ReadError {

@@ -53,6 +53,7 @@
 //! | `rayon` | work on all threads; without it on one, with the same result | yes |
 //! | `serde` | sessions as text; reports, certificates, PSLGs and sizes for serde | yes |
 //! | `spade` | conversions to and from the triangulations of the crate spade | |
+//! | `geo-types` | [`Pslg`] from the shapes of the crate geo-types | |
 //!
 //! Without features this is a mesher alone, and compiles for `wasm32-unknown-unknown`.
 
