@@ -28,14 +28,16 @@ const STEPS: &[&str] = &[
     "fmt --manifest-path python/Cargo.toml --check",
     "xtask tidy",
     "clippy --workspace --all-targets -- -D warnings",
-    // The features of the library that matter: none, formats alone, pictures alone. Whoever
-    // wants both has them by default, as the workspace.
+    // The features of the library that matter: none; formats and threads without pictures and
+    // sessions as text; those without these. The workspace has all of them.
     "clippy -p hexdel --no-default-features -- -D warnings",
-    "clippy -p hexdel --no-default-features --features io -- -D warnings",
-    "clippy -p hexdel --no-default-features --features plot -- -D warnings",
+    "clippy -p hexdel --no-default-features --features io,rayon -- -D warnings",
+    "clippy -p hexdel --no-default-features --features plot,serde,geo-types,spade -- -D warnings",
     "check -p hexdel --no-default-features --target wasm32-unknown-unknown",
     "doc --workspace --no-deps",
     "test --workspace",
+    // Without threads the bytes are the same.
+    "test -p hexdel --no-default-features --features io,serde --test snapshots --test whole_meshes",
     "xtask regen --check",
     "xtask python",
     "xtask web --test",
