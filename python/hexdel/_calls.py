@@ -57,7 +57,7 @@ def mesh(
     method : {'compact', 'templates', 'simple'}, optional
         Few triangles (the default); the method whose bounds are proved, in a fraction
         of the time; or 30 to 120 degrees.
-    effort : {'fast', 'standard', 'best'}, optional
+    effort : {'fast', 'standard', 'best', 'fewest'}, optional
         How hard 'compact' tries to get by with few triangles.
     size : float, array_like, callable, Raster, SizeAt, SizeIn or list of these, optional
         How long edges may be. An array has one length for each point. A callable gets

@@ -16,12 +16,12 @@ from ._errors import OptionError
 from ._size import SizeLike, parts
 
 Method = Literal["compact", "templates", "simple"]
-Effort = Literal["fast", "standard", "best"]
+Effort = Literal["fast", "standard", "best", "fewest"]
 DomainName = Literal["hexagon", "hull", "box", "inside"]
 Progress = bool | Callable[[str, int, int], object] | None
 
 METHODS = ("compact", "templates", "simple")
-EFFORTS = ("fast", "standard", "best")
+EFFORTS = ("fast", "standard", "best", "fewest")
 DOMAINS = ("hexagon", "hull", "box", "inside")
 WAYS = ("conform", "paper")
 OVERLAPS = ("later", "refuse")

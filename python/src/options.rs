@@ -134,6 +134,7 @@ impl Options<'_> {
         match self.effort.as_deref() {
             Some("fast") => Effort::Fast,
             Some("best") => Effort::Best,
+            Some("fewest") => Effort::Fewest,
             _ => Effort::Standard,
         }
     }

@@ -27,6 +27,7 @@
 struct Readme;
 
 mod error;
+mod fewest;
 mod limits;
 mod options;
 mod queue;
@@ -37,6 +38,7 @@ use hexdel_geom::{DVec2, Monitor, Phase};
 use hexdel_optimize::edit::{EditMesh, NONE};
 
 pub use error::GrowError;
+pub use fewest::fewest;
 pub use hexdel_optimize::edit::Kind;
 use limits::RANGE_DEG;
 pub use options::{Grown, Input, Options, Role, Size, Stats};

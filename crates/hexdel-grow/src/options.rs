@@ -64,12 +64,17 @@ pub struct Options {
     pub deadline: Option<Instant>,
     /// Vertices made for size, at most.
     pub most_for_size: u64,
+    /// Steps of [`fewest`](crate::fewest) in a round, for each point.
+    pub steps: u64,
 }
+
+/// Steps for each point, by default.
+const STEPS: u64 = 100;
 
 impl Options {
     /// A lower bound, degrees, and no deadline.
     pub fn new(min_deg: f64) -> Self {
-        Self { min_deg, deadline: None, most_for_size: u64::MAX }
+        Self { min_deg, deadline: None, most_for_size: u64::MAX, steps: STEPS }
     }
 
     /// The same with a time to give up at.

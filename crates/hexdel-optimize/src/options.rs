@@ -36,6 +36,9 @@ pub enum Effort {
     /// All passes, then random changes that make more removals possible:
     /// a tenth fewer triangles than standard in a dozen times the time.
     Best,
+    /// As few vertices as can be found. That is for those who mesh points and PSLGs: in a mesh that is given it is
+    /// the same as [`Effort::Best`].
+    Fewest,
 }
 
 /// What to do.

@@ -242,7 +242,7 @@ impl<'a> Run<'a> {
         let passes = self.passes();
         self.decimate(0, passes)?;
         self.repair(passes == 0)?;
-        if self.options.effort == Effort::Best {
+        if self.options.effort >= Effort::Best {
             self.decimate(self.passes(), PASSES.len())?;
             self.guard = self.sizing;
             for _ in 0..SHAKES {
@@ -313,7 +313,7 @@ impl<'a> Run<'a> {
         match self.options.effort {
             Effort::Repair => 0,
             Effort::Fast => FAST_PASSES[usize::from(self.options.bounds.min_deg() > EASY_DEG)],
-            Effort::Standard | Effort::Best => STANDARD_PASSES + usize::from(self.is_small),
+            Effort::Standard | Effort::Best | Effort::Fewest => STANDARD_PASSES + usize::from(self.is_small),
         }
     }
 
@@ -330,7 +330,7 @@ impl<'a> Run<'a> {
         let once = divisions + repair * (1 + usize::from(self.repairs_first()));
         match self.options.effort {
             Effort::Repair | Effort::Fast | Effort::Standard => once + self.passes(),
-            Effort::Best => once + PASSES.len() + SHAKES + repair,
+            Effort::Best | Effort::Fewest => once + PASSES.len() + SHAKES + repair,
         }
     }
 
@@ -477,7 +477,7 @@ impl<'a> Run<'a> {
         let seed = Random::new(seed).next();
         let mut work = Work::new(part.mesh, self.rules, &self.refills, part.failed, seed);
         work.sizing = self.guard;
-        work.patient |= self.is_small || self.options.effort == Effort::Best;
+        work.patient |= self.is_small || self.options.effort >= Effort::Best;
         job(&mut work);
         work.stats.steps = work.patch.steps();
         (Part { mesh: work.mesh, global: part.global, failed: work.failed }, work.stats)

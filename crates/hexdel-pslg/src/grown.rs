@@ -26,6 +26,28 @@ pub(crate) fn grown(
     size: Option<&dyn Size>,
     monitor: &dyn Monitor,
 ) -> Result<Option<Grown>, PslgError> {
+    of_input(scene, pslg, extent, corners, |input| grow(&Input { size, ..*input }, options, monitor))
+}
+
+/// Searches for such a mesh with as few other vertices as possible.
+pub(crate) fn fewest(
+    scene: &Scene,
+    pslg: &Pslg,
+    extent: Extent,
+    corners: [DVec2; 6],
+    options: &Options,
+    monitor: &dyn Monitor,
+) -> Result<Option<Grown>, PslgError> {
+    of_input(scene, pslg, extent, corners, |input| hexdel_grow::fewest(input, options, monitor))
+}
+
+fn of_input(
+    scene: &Scene,
+    pslg: &Pslg,
+    extent: Extent,
+    corners: [DVec2; 6],
+    make: impl FnOnce(&Input<'_>) -> Result<hexdel_grow::Grown, GrowError>,
+) -> Result<Option<Grown>, PslgError> {
     let sites = scene.sites.len() as u32;
     let mut points = scene.sites.clone();
     let mut segments: Vec<[u32; 2]> = scene.pieces.iter().map(|piece| piece.ends).collect();
@@ -41,9 +63,9 @@ pub(crate) fn grown(
         roles: &roles,
         holes: &pslg.holes,
         inside: extent != Extent::Hexagon,
-        size,
+        size: None,
     };
-    match grow(&input, options, monitor) {
+    match make(&input) {
         Ok(made) => Ok(Some(Grown { net: net_of(&made, scene), left: made.left })),
         Err(GrowError::Cancelled(c)) => Err(c.into()),
         Err(_) => Ok(None),

@@ -1,5 +1,7 @@
 //! From a valid PSLG to its mesh: the order of things.
 
+mod fewest;
+
 use crate::carve::{Carving, carve};
 use crate::compact::{Kept, compact};
 use crate::embed::embed;
@@ -128,10 +130,17 @@ fn run(
         return paper::mesh(input, options, size, monitor);
     }
     let deadline = Deadline::after(options.budget);
-    let mesher = Mesher::new(input, options, size, &deadline);
+    let mesher = Mesher::new(input, options, size, &deadline, true);
     mesher.limits.iter().try_for_each(|limits| limits.check(options.max_triangles))?;
     refuse_too_many(input, mesher.carving.as_ref(), &mesher.lattice, options.max_triangles)?;
-    mesher.mesh(monitor)
+    let found = fewest::searched(input, options, size, &deadline, monitor)?;
+    if let Some(found) = found.as_ref().filter(|found| fewest::is_sparse(found, input)) {
+        return Ok(found.clone());
+    }
+    let made = mesher.mesh(monitor)?;
+    let is_better =
+        |found: &PslgMesh| !made.holds() || found.mesh.triangles.len() < made.mesh.triangles.len();
+    Ok(found.filter(is_better).unwrap_or(made))
 }
 
 /// An error if the options ask for what no method keeps, or the input for what it must be given first.
@@ -220,6 +229,7 @@ impl<'a> Mesher<'a> {
         options: &'a Options,
         size: Option<&'a dyn Sizing>,
         deadline: &'a Deadline,
+        fans: bool,
     ) -> Self {
         let circle =
             smallest_enclosing_circle(input.points.sites()).expect("a valid graph has a finite point");
@@ -227,7 +237,11 @@ impl<'a> Mesher<'a> {
         let limits = Limits::of(input, options, size, circle);
         let most = |p: DVec2| limits.as_ref().map_or(f64::INFINITY, |limits| limits.radius_at(p));
         let carving = Carving::of(input, options.extent);
-        let scene = with_fans(input, pieces, options.near, carving.as_ref(), &most);
+        let scene = if fans {
+            with_fans(input, pieces, options.near, carving.as_ref(), &most)
+        } else {
+            Scene::plain(input, pieces)
+        };
         let least = options.near.min_deg();
         let sectors = Sectors::of(&scene.sites, &scene.pieces, &scene.fans, least, carving.as_ref());
         let wedges = sectors.wedges(&scene.pieces);
@@ -372,7 +386,6 @@ impl<'a> Mesher<'a> {
     fn grown(&self, monitor: &dyn Monitor) -> Result<Option<Net>, PslgError> {
         let Some(effort) = self.options.compact else { return Ok(None) };
         let first = Timed::new(monitor, self.deadline, false);
-        let corners = self.hexagon(GROWN_RADII);
         let mut options = hexdel_grow::Options::new(self.options.near.min_deg());
         options.most_for_size = self.options.max_triangles as u64 / 2;
         let size = self.limits.as_ref().map(|limits| limits as &dyn hexdel_grow::Size);
@@ -380,7 +393,7 @@ impl<'a> Mesher<'a> {
             &self.scene,
             &self.input.pslg,
             self.options.extent,
-            corners,
+            self.grown_corners(),
             &options,
             size,
             &first,
@@ -404,6 +417,11 @@ impl<'a> Mesher<'a> {
         // With sizes there is little to remove.
         let effort = if effort == Effort::Fast { Effort::Repair } else { effort };
         compact(net, &Kept { worth: WORTH, ..self.kept() }, effort, monitor).map(Some)
+    }
+
+    /// The corners of the hexagon that a mesh grows in.
+    fn grown_corners(&self) -> [DVec2; 6] {
+        self.hexagon(GROWN_RADII)
     }
 
     /// The corners of a hexagon around the input, whose circumradius is so many radii of that.

@@ -196,6 +196,11 @@ impl Deadline {
         self.end().map(|end| end.saturating_sub(self.start.elapsed()))
     }
 
+    /// When a part of the time that is left is over.
+    pub(crate) fn share(&self, part: f64) -> Option<Instant> {
+        self.left().and_then(|left| Instant::now().checked_add(left.mul_f64(part)))
+    }
+
     /// Whether the first mesh takes too long: there would be no time to finish it.
     fn is_late(&self) -> bool {
         let most = |budget| Self::with_grace(budget).mul_f64(FIRST_MESH);

@@ -77,6 +77,7 @@ impl Session {
             effort: match self.options.asked().effort {
                 Effort::Fast => 0,
                 Effort::Best => 2,
+                Effort::Fewest => 3,
                 _ => 1,
             },
             centre: self.centre,
@@ -125,7 +126,8 @@ impl Session {
         }
         let least = finest_spacing(DVec2::splat(centre.abs().max_element() + radius));
         size.as_ref().map_or(Ok(()), |size| size.check(least))?;
-        let effort = [Effort::Fast, Effort::Standard, Effort::Best][usize::from(document.effort.min(2))];
+        let efforts = [Effort::Fast, Effort::Standard, Effort::Best, Effort::Fewest];
+        let effort = efforts[usize::from(document.effort.min(3))];
         let session = Self {
             bounds: live.bounds()[1],
             live,

@@ -238,6 +238,20 @@ fn compact_meshes_are_small_and_hold() {
 }
 
 #[test]
+fn the_effort_fewest_takes_a_fraction_of_the_steiner_points() {
+    let bench = Bench::new();
+    let input = fixture("graphs/narrow.poly");
+    let mut triangles = |more: &str| {
+        bench.run(&format!("mesh {input} -q --min-angle 0 -o m.ele --report r.json {more}")).fine();
+        bench.json("r.json")["triangles"].as_u64().unwrap()
+    };
+    let [best, fewest] = ["--effort best", "--effort fewest"].map(&mut triangles);
+    assert!(10 * fewest < best, "{fewest} {best}");
+    // A search with a budget goes on until then, and has not been cut short.
+    assert!(triangles("--effort fewest --budget 0.5") <= fewest);
+}
+
+#[test]
 fn angles_may_be_asked_for() {
     let bench = Bench::new();
     let input = fixture("points/two_close.node");

@@ -52,12 +52,12 @@ impl Refiner<'_> {
     }
 
     /// How high the off-centre is over its edge, in lengths of the edge.
-    pub(super) fn off_height(&self) -> f64 {
+    pub(crate) fn off_height(&self) -> f64 {
         0.5 / libm::tan(0.5 * (self.limits.lo_deg + SLACK_DEG).to_radians())
     }
 
     /// Notes a segment that is in the way, by a corner opposite its edge.
-    pub(super) fn meet(&mut self, c: u32) {
+    pub(crate) fn meet(&mut self, c: u32) {
         if self.segments_met.len() < 8 && !self.segments_met.contains(&c) {
             self.segments_met.push(c);
         }

@@ -2,8 +2,8 @@
 
 mod insert;
 mod patch;
-mod place;
-mod search;
+pub(crate) mod place;
+pub(crate) mod search;
 mod size;
 mod slide;
 mod split;
@@ -70,24 +70,24 @@ pub(crate) struct Refiner<'a> {
     made: u64,
     most_made: u64,
     most_fallbacks: u64,
-    slots: Vec<u32>,
-    cavities: Vec<Cavity>,
+    pub(crate) slots: Vec<u32>,
+    pub(crate) cavities: Vec<Cavity>,
     /// Corners opposite edges of segments that were in the way.
-    segments_met: Vec<u32>,
+    pub(crate) segments_met: Vec<u32>,
     scratch: Scratch,
     deadline: Option<Instant>,
 }
 
 /// A cavity, or two on both sides of a segment, and a place for a vertex in it.
 #[derive(Clone, Copy)]
-struct Candidate {
-    cavity: Cavity,
-    other: Option<Cavity>,
-    at: DVec2,
+pub(crate) struct Candidate {
+    pub(crate) cavity: Cavity,
+    pub(crate) other: Option<Cavity>,
+    pub(crate) at: DVec2,
 }
 
 impl Candidate {
-    fn new(cavity: &Cavity, at: DVec2) -> Self {
+    pub(crate) fn new(cavity: &Cavity, at: DVec2) -> Self {
         Self { cavity: *cavity, other: None, at }
     }
 }
@@ -132,6 +132,12 @@ impl<'a> Refiner<'a> {
             deadline: options.deadline,
             mesh,
         }
+    }
+
+    /// Repairs for whoever chooses triangles and changes the mesh: none are queued.
+    pub(crate) fn unqueued(segments: &'a [[DVec2; 2]], options: &Options) -> Self {
+        let refiner = Self::new(EditMesh::default(), segments, options, None, true);
+        Self { slack: f64::INFINITY, ..refiner }
     }
 
     /// Repairs all that can be repaired within the limit of work.
@@ -194,19 +200,11 @@ impl<'a> Refiner<'a> {
 
     /// Whether a triangle has an angle out of the bounds.
     pub(crate) fn is_bad(&self, t: u32) -> bool {
-        let shape = Shape::of(self.mesh.corners(t));
-        let (high, low) = (self.limits.hi * shape.cross, self.limits.lo * shape.cross);
-        if shape.cross <= 0.0 || shape.dots.iter().any(|&d| d < high) {
-            return true;
-        }
-        (0..3).any(|i| shape.dots[i] > low && !self.is_exempt(3 * t + i as u32))
+        is_bad(&self.mesh, &self.limits, t)
     }
 
-    /// Whether the lower bound is not asked of a corner: it is one of the input's.
     fn is_exempt(&self, c: u32) -> bool {
-        self.mesh.kind[self.mesh.v(c) as usize] == Kind::Fixed
-            && self.mesh.is_marked(next(c))
-            && self.mesh.is_marked(prev(c))
+        is_exempt(&self.mesh, c)
     }
 
     fn push_if_bad(&mut self, t: u32) {
@@ -280,7 +278,7 @@ impl<'a> Refiner<'a> {
         self.commit(candidate);
     }
 
-    fn commit(&mut self, candidate: &Candidate) -> u32 {
+    pub(crate) fn commit(&mut self, candidate: &Candidate) -> u32 {
         let mut slots = std::mem::take(&mut self.slots);
         let Candidate { cavity, other, at } = candidate;
         let kind = if cavity.on_segment { Kind::OnSegment } else { Kind::Free };
@@ -330,6 +328,23 @@ impl<'a> Refiner<'a> {
         let d = b - a;
         point_on_segment(a, b, ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0))
     }
+}
+
+/// Whether a triangle has an angle out of the bounds.
+pub(crate) fn is_bad(mesh: &EditMesh, limits: &Limits, t: u32) -> bool {
+    let shape = Shape::of(mesh.corners(t));
+    let (high, low) = (limits.hi * shape.cross, limits.lo * shape.cross);
+    if shape.cross <= 0.0 || shape.dots.iter().any(|&d| d < high) {
+        return true;
+    }
+    (0..3).any(|i| shape.dots[i] > low && !is_exempt(mesh, 3 * t + i as u32))
+}
+
+/// Whether the lower bound is not asked of a corner: it is one of the input's.
+fn is_exempt(mesh: &EditMesh, c: u32) -> bool {
+    mesh.kind[mesh.v(c) as usize] == Kind::Fixed
+        && mesh.segment(next(c)).is_some()
+        && mesh.segment(prev(c)).is_some()
 }
 
 /// How often the shortest edge must be doubled to be as long as the longest.

@@ -38,7 +38,7 @@ struct Tri {
 
 /// Buffers of a patch: movable vertices first.
 #[derive(Debug, Default)]
-pub(super) struct Scratch {
+pub(crate) struct Scratch {
     round: u32,
     /// By vertex of the mesh: the round it was met in, and its place.
     vertex: Vec<(u32, u32)>,
@@ -53,7 +53,7 @@ pub(super) struct Scratch {
 impl Refiner<'_> {
     /// Moves the vertices of a triangle and those so many rings around it. Kept if fewer triangles are bad than before, or
     /// none in strict mode.
-    pub(super) fn move_patch(&mut self, t: u32, rings: usize) -> bool {
+    pub(crate) fn move_patch(&mut self, t: u32, rings: usize) -> bool {
         let mut patch = std::mem::take(&mut self.scratch);
         let kept = self.gather(&mut patch, t, rings) && self.settle(&mut patch) && self.is_better(&patch);
         if kept {

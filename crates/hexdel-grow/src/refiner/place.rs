@@ -19,11 +19,11 @@ const PROGRESS: f64 = 0.7;
 const REGULAR: f64 = 1e-3;
 
 /// Count of bad triangles of a fan with one that is not surely counter-clockwise.
-pub(super) const TURNED: usize = 1000;
+pub(crate) const TURNED: usize = 1000;
 
 /// What forbids a vertex in a cavity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Outline {
+pub(crate) enum Outline {
     /// Nothing.
     Fits,
     /// This corner, the worst one.
@@ -34,7 +34,7 @@ pub(super) enum Outline {
 
 impl Refiner<'_> {
     /// Moves a vertex of a triangle to where all triangles around it are within the bounds.
-    pub(super) fn move_one(&mut self, t: u32) -> bool {
+    pub(crate) fn move_one(&mut self, t: u32) -> bool {
         for v in self.mesh.vertices(t) {
             if self.mesh.kind[v as usize] != Kind::Free {
                 continue;
@@ -54,7 +54,7 @@ impl Refiner<'_> {
 
     /// The corner of a cavity's outline that forbids a vertex inside: each is divided in two there, or stays
     /// whole on a segment.
-    pub(super) fn outline(&self, cavity: &Cavity) -> Outline {
+    pub(crate) fn outline(&self, cavity: &Cavity) -> Outline {
         let ring = cavity.ring();
         let n = ring.len();
         let (mut worst, mut found) = (0.0, Outline::Fits);
@@ -69,7 +69,8 @@ impl Refiner<'_> {
                 }
                 let side = if j == 0 { n - 1 } else { 1 };
                 let exempt = || {
-                    self.mesh.kind[ring[j] as usize] == Kind::Fixed && self.mesh.is_marked(cavity.inner(side))
+                    self.mesh.kind[ring[j] as usize] == Kind::Fixed
+                        && self.mesh.segment(cavity.inner(side)).is_some()
                 };
                 if self.limits.too_narrow(dot, cross) && !exempt() { dot / cross } else { 0.0 }
             } else if cross < 0.0 {
@@ -88,7 +89,7 @@ impl Refiner<'_> {
     }
 
     /// A place in a cavity, from `start`, with every triangle of the fan within the bounds.
-    pub(super) fn place(&self, cavity: &Cavity, start: DVec2) -> Option<DVec2> {
+    pub(crate) fn place(&self, cavity: &Cavity, start: DVec2) -> Option<DVec2> {
         let ring = cavity.ring();
         let n = ring.len();
         let mut at = [DVec2::ZERO; MOST_EDGES];
@@ -148,7 +149,7 @@ impl Refiner<'_> {
 
     /// How many triangles of a fan are out of the bounds, or too large where vertices go for it; [`TURNED`] if one is
     /// not surely counter-clockwise.
-    pub(super) fn fan_bad(&self, cavity: &Cavity, x: DVec2) -> usize {
+    pub(crate) fn fan_bad(&self, cavity: &Cavity, x: DVec2) -> usize {
         let ring = cavity.ring();
         let n = ring.len();
         let first = usize::from(cavity.on_segment);
@@ -169,7 +170,7 @@ impl Refiner<'_> {
             } else if dots.iter().any(|&dot| dot > low) {
                 let exempt = |at: usize, side: usize| {
                     self.mesh.kind[ring[at] as usize] == Kind::Fixed
-                        && self.mesh.is_marked(cavity.inner(side))
+                        && self.mesh.segment(cavity.inner(side)).is_some()
                 };
                 let at_first = cavity.on_segment && i == 1 && exempt(1, 1);
                 let at_last = cavity.on_segment && i + 1 == n && exempt(0, n - 1);
@@ -182,12 +183,12 @@ impl Refiner<'_> {
     }
 
     /// How many triangles of a cavity are out of the bounds.
-    pub(super) fn cavity_bad(&self, cavity: &Cavity) -> usize {
+    pub(crate) fn cavity_bad(&self, cavity: &Cavity) -> usize {
         cavity.triangles().iter().filter(|&&t| self.is_bad(t)).count()
     }
 
     /// The mean of a cavity's vertices.
-    pub(super) fn middle(&self, cavity: &Cavity) -> DVec2 {
+    pub(crate) fn middle(&self, cavity: &Cavity) -> DVec2 {
         let sum: DVec2 = cavity.ring().iter().map(|&v| self.mesh.at(v)).sum();
         sum / cavity.len() as f64
     }

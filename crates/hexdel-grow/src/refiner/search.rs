@@ -9,11 +9,11 @@ use super::{Candidate, Refiner};
 const NODES: usize = 20;
 
 /// Triangles up to which a cavity that cannot hold a vertex is grown.
-pub(super) const DEPTH: usize = 8;
+pub(crate) const DEPTH: usize = 8;
 
 impl Refiner<'_> {
     /// Inserts a vertex in a cavity grown from the triangle if one leaves no bad triangle.
-    pub(super) fn insert_in_cavity(&mut self, t: u32) -> bool {
+    pub(crate) fn insert_in_cavity(&mut self, t: u32) -> bool {
         let mut cavities = std::mem::take(&mut self.cavities);
         cavities.clear();
         cavities.push(self.mesh.cavity_of(t));
@@ -51,7 +51,7 @@ impl Refiner<'_> {
     }
 
     /// Adds the cavity with the triangle beyond an edge, if it is a new one. A segment in the way is noted.
-    pub(super) fn grow(&mut self, cavities: &mut Vec<Cavity>, cavity: &Cavity, edge: usize) {
+    pub(crate) fn grow(&mut self, cavities: &mut Vec<Cavity>, cavity: &Cavity, edge: usize) {
         let inner = cavity.inner(edge);
         let own = cavity.on_segment && edge == 0;
         if self.mesh.is_marked(inner) && !self.mesh.is_locked(inner) && !own {

@@ -91,7 +91,7 @@ impl Range {
 impl Refiner<'_> {
     /// Moves a vertex of a triangle along its segment to where all triangles around it are within the bounds; the cavity
     /// may take more triangles than its own.
-    pub(super) fn slide_one(&mut self, t: u32) -> bool {
+    pub(crate) fn slide_one(&mut self, t: u32) -> bool {
         for v in self.mesh.vertices(t) {
             if !self.mesh.kind[v as usize].slides() {
                 continue;
@@ -108,7 +108,7 @@ impl Refiner<'_> {
     }
 
     /// Inserts a vertex on one of the triangle's own or other segments that were met, if that leaves no bad triangle.
-    pub(super) fn insert_on_segments(&mut self, t: u32) -> bool {
+    pub(crate) fn insert_on_segments(&mut self, t: u32) -> bool {
         let own = (3 * t..3 * t + 3).filter(|&c| self.mesh.segment(c).is_some() && !self.mesh.is_locked(c));
         let mut met: Vec<u32> = own.collect();
         met.extend(self.segments_met.iter().filter(|c| *c / 3 != t));
@@ -124,8 +124,8 @@ impl Refiner<'_> {
     }
 
     /// A place on an edge that is good for a cavity on each side, grown from these.
-    fn on_edge(&mut self, one: &Cavity, other: Option<&Cavity>) -> Option<Candidate> {
-        let segment = self.mesh.segment(one.inner(0))?;
+    pub(crate) fn on_edge(&mut self, one: &Cavity, other: Option<&Cavity>) -> Option<Candidate> {
+        let segment = self.mesh.segment(one.inner(0)).filter(|_| !self.mesh.is_locked(one.inner(0)))?;
         let place = |m: &Self, cavity: &Cavity, s: f64| {
             let [a, b] = [0, 1].map(|i| m.mesh.at(cavity.ring()[i]));
             m.on_segment(segment, a + s * (b - a))

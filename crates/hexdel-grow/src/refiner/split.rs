@@ -20,13 +20,13 @@ const MOST_PLACES: usize = 12;
 
 /// A place on an edge, as a part of it, and whether it is on a shell around the input point at one end.
 #[derive(Clone, Copy, Debug)]
-struct Place {
-    s: f64,
+pub(crate) struct Place {
+    pub(crate) s: f64,
     is_shell: bool,
 }
 
 /// An edge that is to be divided.
-struct Edge {
+pub(crate) struct Edge {
     corner: u32,
     segment: u32,
     from: DVec2,
@@ -50,7 +50,7 @@ pub(crate) fn power_of_two(x: f64) -> f64 {
 impl Refiner<'_> {
     /// Divides the edge opposite a corner, where that leaves the fewest bad triangles: at a power of two from an
     /// input point at one end, as far as a vertex on a neighbouring segment, at the feet of the altitudes, about the middle.
-    pub(super) fn split(&mut self, c: u32) -> bool {
+    pub(crate) fn split(&mut self, c: u32) -> bool {
         let Some(edge) = self.divisible(c) else { return false };
         let mut best: Option<(f64, Candidate, bool)> = None;
         for (j, place) in self.places(&edge).into_iter().enumerate() {
@@ -71,7 +71,7 @@ impl Refiner<'_> {
     }
 
     /// Divides the edge opposite a corner at this part of it.
-    pub(super) fn split_at(&mut self, c: u32, s: f64) -> bool {
+    pub(crate) fn split_at(&mut self, c: u32, s: f64) -> bool {
         let Some((candidate, _)) = self.divisible(c).and_then(|edge| self.division(&edge, s)) else {
             return false;
         };
@@ -81,7 +81,7 @@ impl Refiner<'_> {
     }
 
     /// The edge opposite a corner, if it is on a segment and may be divided.
-    fn divisible(&self, c: u32) -> Option<Edge> {
+    pub(crate) fn divisible(&self, c: u32) -> Option<Edge> {
         let segment = self.mesh.segment(c).filter(|_| !self.mesh.is_locked(c))?;
         let [a, b] = self.mesh.edge(c);
         let is_input = |v: u32| self.mesh.kind[v as usize] == Kind::Fixed;
@@ -96,7 +96,7 @@ impl Refiner<'_> {
     }
 
     /// A vertex on an edge with the Delaunay cavities on both sides, and how many bad triangles it brings.
-    fn division(&self, edge: &Edge, s: f64) -> Option<(Candidate, f64)> {
+    pub(crate) fn division(&self, edge: &Edge, s: f64) -> Option<(Candidate, f64)> {
         let at = self.on_segment(edge.segment, edge.from + s * edge.along);
         let cavity = self.delaunay_half(at, edge.corner);
         let twin = self.mesh.twin[edge.corner as usize];
@@ -112,17 +112,19 @@ impl Refiner<'_> {
         Some((Candidate { cavity, other, at }, after as f64 - before as f64))
     }
 
+    /// The foot of the altitude from a corner, as a part of an edge.
+    pub(crate) fn foot(&self, edge: &Edge, c: u32) -> f64 {
+        (self.mesh.at(self.mesh.v(c)) - edge.from).dot(edge.along) / edge.along.length_squared()
+    }
+
     /// Places to divide an edge at, the preferred one first.
-    fn places(&self, edge: &Edge) -> Vec<Place> {
+    pub(crate) fn places(&self, edge: &Edge) -> Vec<Place> {
         let length = edge.along.length();
         let mut places = Vec::with_capacity(MOST_PLACES);
         places.push(Place { s: shell(edge, length), is_shell: true });
         let mut add = |s: f64| places.push(Place { s, is_shell: false });
         let twin = self.mesh.twin[edge.corner as usize];
-        let foot = |c: u32| {
-            let along = (self.mesh.at(self.mesh.v(c)) - edge.from).dot(edge.along) / (length * length);
-            along.clamp(0.25, 0.75)
-        };
+        let foot = |c: u32| self.foot(edge, c).clamp(0.25, 0.75);
         add(foot(edge.corner));
         [0.5, 0.4, 0.6].into_iter().for_each(&mut add);
         if twin != NONE {

@@ -11,7 +11,7 @@ const STEPS: usize = 60;
 impl Refiner<'_> {
     /// The Delaunay cavity of a place, walking straight there from triangle `t`; none if it is too far away. An error is
     /// a corner opposite the edge of a segment that the place is beyond, or in the half-circle over.
-    pub(super) fn find_cavity(&self, x: DVec2, t: u32) -> Result<Option<Cavity>, u32> {
+    pub(crate) fn find_cavity(&self, x: DVec2, t: u32) -> Result<Option<Cavity>, u32> {
         let Some(there) = self.walk(x, t)? else { return Ok(None) };
         self.delaunay_cavity(x, there).map(Some)
     }
@@ -64,7 +64,7 @@ impl Refiner<'_> {
     }
 
     /// The Delaunay cavity of a place on the segment's edge opposite corner `c`, on the side of `c`.
-    pub(super) fn delaunay_half(&self, x: DVec2, c: u32) -> Cavity {
+    pub(crate) fn delaunay_half(&self, x: DVec2, c: u32) -> Cavity {
         let mut cavity = self.mesh.cavity_on(c);
         let (mut i, mut still) = (1, 0);
         while still < cavity.len() {

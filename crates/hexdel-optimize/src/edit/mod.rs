@@ -37,6 +37,8 @@ pub use cavity::{Cavity, MOST_EDGES, MOST_ENCLOSED};
 pub use change::Saved;
 pub use check::Broken;
 
+pub use crate::random::Random;
+
 /// No corner, no vertex, no triangle.
 pub const NONE: u32 = u32::MAX;
 
