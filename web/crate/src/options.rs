@@ -47,6 +47,7 @@ enum EffortName {
     #[default]
     Standard,
     Best,
+    Fewest,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -192,6 +193,7 @@ impl Options {
             EffortName::Fast => Effort::Fast,
             EffortName::Standard => Effort::Standard,
             EffortName::Best => Effort::Best,
+            EffortName::Fewest => Effort::Fewest,
         }
     }
 

@@ -46,7 +46,7 @@ export interface Options {
    * How hard the compact method optimises; by default `standard`. `draft` keeps the bounds and
    * does no more: many triangles, soon.
    */
-  readonly effort?: "draft" | "fast" | "standard" | "best";
+  readonly effort?: "draft" | "fast" | "standard" | "best" | "fewest";
   /** The smallest angle allowed, degrees. */
   readonly minAngle?: number | undefined;
   /** The largest angle allowed, degrees. */
