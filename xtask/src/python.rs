@@ -4,8 +4,8 @@
 //! Everything is below `target/`: wheels, and virtual environments that are kept from one
 //! run to the next. One environment, of the newest Python, has every package that meshes are
 //! handed on to; packages that do not install are named, and their tests skipped. In a second
-//! one, of the oldest Python, numpy is alone. The wheel and the source distribution are
-//! installed and tested in both.
+//! one, of the oldest Python, numpy is alone. The wheel, built with the newest, and what the
+//! source distribution becomes with the oldest are installed and tested in both.
 
 use crate::Outcome;
 use crate::tidy;
@@ -85,7 +85,7 @@ pub(crate) fn test() -> Outcome {
     let main = package.environment("main", &newest)?;
     let other = package.environment("other", &oldest)?;
     let [wheel, sdist] = build(&package, &main)?;
-    let sdist = package.unpack(&main, &sdist)?;
+    let sdist = package.build_sdist(&other, &package.unpack(&main, &sdist)?)?;
     main.install("the clients", CLIENTS);
     for (environment, docstrings) in [(&main, ""), (&other, NUMPY_ALONE)] {
         environment.pip(TOOLS)?;
@@ -114,7 +114,7 @@ impl Package {
     fn lint(&self) -> Outcome {
         let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut clippy = Command::new(cargo);
-        clippy.args(["clippy", "--quiet", "--release", "--locked", "--target-dir"]).arg(&self.target);
+        clippy.args(["clippy", "--quiet", "--locked", "--target-dir"]).arg(&self.target);
         run(clippy.args(["--", "-D", "warnings"]).current_dir(&self.source))
     }
 
@@ -128,6 +128,20 @@ impl Package {
         tools.run("python", &["-c", UNPACK, &from, &to])?;
         let mut entries = fs::read_dir(&folder)?;
         entries.next().map_or_else(|| Err("the sdist is empty".into()), |entry| Ok(entry?.path()))
+    }
+
+    /// The wheel that pip makes of the source distribution. One is for all Pythons, as the other
+    /// wheel is.
+    fn build_sdist(&self, tools: &Environment, source: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
+        let folder = self.target.join("python").join("from-sdist");
+        let _ = fs::remove_dir_all(&folder);
+        let begun = Instant::now();
+        let [source, to] = [source, &folder].map(|path| path.display().to_string());
+        let wheel = ["-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps", "--wheel-dir"];
+        tools.run("python", &[&wheel[..], &[&to, &source]].concat())?;
+        eprintln!("python: built the sdist in {:.0} s", begun.elapsed().as_secs_f64());
+        let mut entries = fs::read_dir(&folder)?;
+        entries.next().map_or_else(|| Err("pip made no wheel of the sdist".into()), |entry| Ok(entry?.path()))
     }
 
     /// A virtual environment, made anew if it is not of this Python.
@@ -225,7 +239,7 @@ impl Environment {
         all
     }
 
-    /// Installs hexdel from a file or folder, whether or not it is there.
+    /// Installs hexdel from a wheel, whether or not it is there.
     fn replace(&self, what: &str, with: &Path) -> Outcome {
         let begun = Instant::now();
         self.pip(&["--force-reinstall", "--no-deps", &with.display().to_string()])?;

@@ -125,7 +125,8 @@ fn fixture_of(record: &str) -> Option<String> {
 /// Runs the tests that keep the records.
 fn records(root: &Path, check: bool) -> Outcome {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.current_dir(root).args(["test", "--quiet", "--package", "hexdel", "--features", "spade"]);
+    // With the features of the whole workspace nothing is compiled that `cargo test --workspace` has.
+    cargo.current_dir(root).args(["test", "--quiet", "--workspace"]);
     cargo.args(["--test", "snapshots", "--test", "whole_meshes"]);
     cargo.env("INSTA_UPDATE", if check { "no" } else { "always" }).env_remove("INSTA_FORCE_PASS");
     if !check {

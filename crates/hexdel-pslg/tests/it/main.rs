@@ -1,0 +1,11 @@
+//! All tests of PSLGs in one program: it links once.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod faces;
+mod mesh;
+mod paper;
+mod validation;

@@ -1,0 +1,5 @@
+//! All tests of refinement in one program: it links once.
+
+mod engine;
+mod live;
+mod rules;
