@@ -14,6 +14,7 @@ mod bad_input;
 mod compact;
 mod drafts;
 mod dual_edges;
+mod fewest;
 mod graph_sizes;
 mod graphs;
 mod monitor;

@@ -1,7 +1,5 @@
 //! What the search for few Steiner points promises.
 
-#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
-
 use std::f64::consts::TAU;
 
 use hexdel_geom::{DVec2, Monitor, Phase, Unwatched, point_on_segment, quality};

@@ -1,11 +1,8 @@
 //! The effort that searches for few Steiner points.
 
 #![cfg(feature = "io")]
-#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-mod common;
-
-use common::graph;
+use crate::common::graph;
 use hexdel::{AngleBounds, Effort, Mesher, Pslg, PslgTriangulation, Size};
 
 fn mesher(min_deg: f64, effort: Effort) -> Mesher {
