@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// templates, simple, compact; for segments --pslg paper
     #[arg(long, value_enum, default_value_t = MethodName::Compact, hide_possible_values = true)]
     method: MethodName,
-    /// How hard compact optimises: fast, standard, best, fewest
+    /// How hard to optimise: fast, standard, best, fewest
     #[arg(long, value_enum, default_value_t, hide_possible_values = true)]
     effort: EffortName,
     /// Time limit; when it is reached, the mesh is written with exit status 3

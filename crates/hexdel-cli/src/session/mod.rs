@@ -48,7 +48,7 @@ pub(crate) struct Args {
     /// compact, or templates: many triangles [default: compact]
     #[arg(long, value_enum, default_value_t, hide_possible_values = true, hide_default_value = true)]
     method: SessionMethod,
-    /// How hard compact optimises: fast, standard, best, fewest [default: standard]
+    /// How hard to optimise: fast, standard, best, fewest [default: standard]
     #[arg(long, value_enum, hide_possible_values = true)]
     effort: Option<EffortName>,
     /// Time limit of each call that meshes anew [default: none]

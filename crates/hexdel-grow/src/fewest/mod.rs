@@ -44,9 +44,10 @@ const ANYWHERE: usize = 4;
 /// One of so many windows without bad triangles may get one Steiner point more than it lost.
 const ONE_MORE: usize = 3;
 
-/// Steps in vain on bad triangles for each further Steiner point that a window with bad triangles may get, and how many
-/// that are at most.
+/// Steps in vain on bad triangles for each further Steiner point that a window with bad triangles may get.
 const VAIN: usize = 3;
+
+/// How many those are at most.
 const MOST_MORE: usize = 12;
 
 /// Fewer points than these have as many steps.
@@ -181,7 +182,8 @@ impl<'a> Search<'a> {
         deadline.map_or(self.best.is_some() || rounds == ROUNDS, is_over)
     }
 
-    /// The steps of a round; fewer where the deadline comes before, and sooner colder then. In a new mesh bad triangles cost little at first.
+    /// The steps of a round; fewer where the deadline comes before, and it cools sooner then. In a new mesh bad triangles
+    /// cost little at first.
     fn round(
         &mut self,
         round: u64,
@@ -193,7 +195,8 @@ impl<'a> Search<'a> {
         let mut spent = 0.0;
         for step in 0..self.steps {
             if step % LOOK == 0 {
-                monitor.progress(Phase::Optimize, round * self.steps + step, ROUNDS * self.steps);
+                let total = ROUNDS.max(round + 1) * self.steps;
+                monitor.progress(Phase::Optimize, round * self.steps + step, total);
                 check(monitor)?;
                 spent = deadline.map_or(0.0, |end| share(start, end));
             }
