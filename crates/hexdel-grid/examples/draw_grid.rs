@@ -1,5 +1,5 @@
 //! Subdivides the grid around a place and writes it as SVG to standard output:
-//! `cargo run -p hexdel-grid --example draw -- 4 > grid.svg`, with the level to go to.
+//! `cargo run -p hexdel-grid --example draw_grid -- 4 > grid.svg`, with the level to go to.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "what an example writes is its result")]
 
 use hexdel_geom::DVec2;
