@@ -67,7 +67,7 @@ const COPY: u64 = 8;
 /// A round of [`Options::steps`] for each point begins with the constrained Delaunay triangulation. Where it leaves bad
 /// triangles, there are up to two more: one from a mesh that has grown, and one that begins anew. With a deadline, rounds go
 /// on until it is over, from the best mesh if there is one without bad triangles. The best mesh of all is what comes back.
-/// Sizes are not looked at.
+/// Sizes are not looked at. Lower bounds below 1 degree count as 1.
 ///
 /// # Guarantees
 ///

@@ -52,7 +52,7 @@ impl Refiner<'_> {
     }
 
     /// How high the off-centre is over its edge, in lengths of the edge.
-    pub(crate) fn off_height(&self) -> f64 {
+    pub(super) fn off_height(&self) -> f64 {
         0.5 / libm::tan(0.5 * (self.limits.lo_deg + SLACK_DEG).to_radians())
     }
 

@@ -38,7 +38,7 @@ struct Tri {
 
 /// Buffers of a patch: movable vertices first.
 #[derive(Debug, Default)]
-pub(crate) struct Scratch {
+pub(super) struct Scratch {
     round: u32,
     /// By vertex of the mesh: the round it was met in, and its place.
     vertex: Vec<(u32, u32)>,

@@ -13,7 +13,7 @@ pub(crate) const DEPTH: usize = 8;
 
 impl Refiner<'_> {
     /// Inserts a vertex in a cavity grown from the triangle if one leaves no bad triangle.
-    pub(crate) fn insert_in_cavity(&mut self, t: u32) -> bool {
+    pub(super) fn insert_in_cavity(&mut self, t: u32) -> bool {
         let mut cavities = std::mem::take(&mut self.cavities);
         cavities.clear();
         cavities.push(self.mesh.cavity_of(t));

@@ -108,7 +108,7 @@ impl Refiner<'_> {
     }
 
     /// Inserts a vertex on one of the triangle's own or other segments that were met, if that leaves no bad triangle.
-    pub(crate) fn insert_on_segments(&mut self, t: u32) -> bool {
+    pub(super) fn insert_on_segments(&mut self, t: u32) -> bool {
         let own = (3 * t..3 * t + 3).filter(|&c| self.mesh.segment(c).is_some() && !self.mesh.is_locked(c));
         let mut met: Vec<u32> = own.collect();
         met.extend(self.segments_met.iter().filter(|c| *c / 3 != t));

@@ -50,7 +50,7 @@ pub(crate) fn power_of_two(x: f64) -> f64 {
 impl Refiner<'_> {
     /// Divides the edge opposite a corner, where that leaves the fewest bad triangles: at a power of two from an
     /// input point at one end, as far as a vertex on a neighbouring segment, at the feet of the altitudes, about the middle.
-    pub(crate) fn split(&mut self, c: u32) -> bool {
+    pub(super) fn split(&mut self, c: u32) -> bool {
         let Some(edge) = self.divisible(c) else { return false };
         let mut best: Option<(f64, Candidate, bool)> = None;
         for (j, place) in self.places(&edge).into_iter().enumerate() {
@@ -71,7 +71,7 @@ impl Refiner<'_> {
     }
 
     /// Divides the edge opposite a corner at this part of it.
-    pub(crate) fn split_at(&mut self, c: u32, s: f64) -> bool {
+    pub(super) fn split_at(&mut self, c: u32, s: f64) -> bool {
         let Some((candidate, _)) = self.divisible(c).and_then(|edge| self.division(&edge, s)) else {
             return false;
         };
